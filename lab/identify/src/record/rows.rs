@@ -1,11 +1,11 @@
 //! The rows below the header.
 
-use super::error::{Bad, RecordError};
+use super::error::{shown, Bad, RecordError, NAME_LENGTH};
 use super::header::Header;
 use super::layout::passed_over;
 use super::roles::Roles;
 use super::source::{Row, Source};
-use super::sparse::{self, Lacking};
+use super::sparse::{self, Lacking, Mended};
 use super::time::{Clock, Stamp};
 use super::{Options, MIN_SAMPLES};
 
@@ -77,6 +77,8 @@ struct Reader<'a> {
     header: &'a Header,
     series: Vec<(usize, Option<(usize, f64)>)>,
     drop_bad: bool,
+    /// Whether the rows have stamps, of which input and output may each have their own.
+    has_stamps: bool,
     /// One more than the last column that is read.
     width: usize,
     /// Cells of the first row, where it lacks columns that are not read.
@@ -103,6 +105,7 @@ impl<'a> Reader<'a> {
             header,
             series,
             drop_bad: options.drop_bad,
+            has_stamps: roles.time.is_some(),
             width: roles.read().chain(roles.time).max().map_or(0, |k| k + 1),
             short: None,
             kept: 0,
@@ -165,7 +168,10 @@ impl<'a> Reader<'a> {
         let t = match clock.stamp(row)? {
             Stamp::Kept(t) => t,
             Stamp::Cut => return Ok(Sample::Cut),
-            Stamp::Repeats => return Ok(Sample::Bad(Bad::Repeated)),
+            Stamp::Repeats(t) => {
+                self.lacking.repeats.push(self.kept);
+                t
+            }
         };
         into.clear();
         let number = |index: usize| row.number(index, &self.header.columns[index].name);
@@ -176,11 +182,12 @@ impl<'a> Reader<'a> {
                     number(*column).and_then(|value| Ok(value + factor * number(*second)?))
                 }
             };
-            // A channel may lack, input and output may not.
+            // A channel may lack; of input and output all rows tell whether they may.
+            let waits = k >= 2 || self.has_stamps && !row.may_be_cut();
             let bad = value.as_ref().err().and_then(RecordError::bad);
             match (value, bad) {
                 (Ok(value), _) => into.push(value),
-                (Err(error), Some(bad)) if k >= 2 => {
+                (Err(error), Some(bad)) if waits => {
                     self.lacking.add(self.kept, k, bad, error);
                     into.push(f64::NAN);
                 }
@@ -227,6 +234,92 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// The rows that were kept.
+struct Kept {
+    time: Vec<f64>,
+    values: Vec<Vec<f64>>,
+    lines: Vec<usize>,
+}
+
+impl Kept {
+    fn new(columns: usize) -> Self {
+        Self {
+            time: Vec::new(),
+            values: vec![Vec::new(); columns],
+            lines: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, time: f64, line: usize, sample: &[f64]) {
+        self.time.push(time);
+        self.lines.push(line);
+        for (values, value) in self.values.iter_mut().zip(sample) {
+            values.push(*value);
+        }
+    }
+
+    /// Whether no stamp comes again among those of the input, and none among those of the output.
+    fn has_own_stamps(&self) -> bool {
+        self.values.iter().take(2).all(|values| {
+            let own = values
+                .iter()
+                .zip(&self.time)
+                .filter(|(value, _)| !value.is_nan());
+            let own: Vec<f64> = own.map(|(_, t)| *t).collect();
+            own.windows(2).all(|pair| pair[0] < pair[1])
+        })
+    }
+
+    /// Takes out these rows, which are in ascending order.
+    fn leave_out(&mut self, rows: impl Iterator<Item = usize>) {
+        let mut out = rows.peekable();
+        let stays = |row: usize| out.next_if_eq(&row).is_none();
+        let stays: Vec<bool> = (0..self.time.len()).map(stays).collect();
+        self.leave(&stays);
+    }
+
+    /// Leaves the rows that stay.
+    fn leave(&mut self, stays: &[bool]) {
+        only(&mut self.time, stays);
+        only(&mut self.lines, stays);
+        self.values.iter_mut().for_each(|own| only(own, stays));
+    }
+
+    /// Leaves the rows with a reading of the end that has fewer of them, within the span of both;
+    /// what is to be said of it.
+    fn on_one_grid(&mut self, lacking: &Mended, header: &Header, roles: &Roles) -> String {
+        let [input, output] = &lacking.readings;
+        let is_input = input.len() < output.len();
+        let (grid, other) = match is_input {
+            true => (input, output),
+            false => (output, input),
+        };
+        let span = other.first().zip(other.last());
+        let inside = |row: &&usize| span.is_some_and(|(first, last)| (first..=last).contains(row));
+        let mut stays = vec![false; self.time.len()];
+        grid.iter()
+            .filter(inside)
+            .for_each(|row| stays[*row] = true);
+        self.leave(&stays);
+        let name = |index: usize| shown(&header.columns[index].name, NAME_LENGTH);
+        let (own, moved) = match is_input {
+            true => (name(roles.input), name(roles.output)),
+            false => (name(roles.output), name(roles.input)),
+        };
+        format!(
+            "`{own}` and `{moved}` have stamps of their own ({} and {} readings): `{moved}` interpolated linearly at the stamps of `{own}`",
+            grid.len(),
+            other.len()
+        )
+    }
+}
+
+/// Leaves the values of a column that stay.
+fn only<T>(column: &mut Vec<T>, stays: &[bool]) {
+    let mut stays = stays.iter();
+    column.retain(|_| stays.next().is_some_and(|stays| *stays));
+}
+
 /// Reads the rows; values in rows that are cut away are not looked at.
 pub(super) fn read(
     rows: &mut Source<'_>,
@@ -236,9 +329,9 @@ pub(super) fn read(
 ) -> Result<Table, RecordError> {
     let mut clock = Clock::new(header, roles.time, options)?;
     let mut reader = Reader::new(header, roles, options)?;
-    let mut values = vec![Vec::new(); reader.series.len()];
-    let (mut time, mut lines, mut sample) = (Vec::new(), Vec::new(), Vec::new());
+    let mut kept = Kept::new(reader.series.len());
     let (mut dropped, mut below) = (Dropped::default(), None);
+    let mut sample = Vec::new();
     let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
     loop {
         let read = match rows.read() {
@@ -253,13 +346,7 @@ pub(super) fn read(
         match read {
             Ok(Sample::Cut) => {}
             Ok(Sample::Bad(bad)) => dropped.count(bad),
-            Ok(Sample::At(t)) => {
-                time.push(t);
-                lines.push(rows.line());
-                for (values, value) in values.iter_mut().zip(&sample) {
-                    values.push(*value);
-                }
-            }
+            Ok(Sample::At(t)) => kept.push(t, rows.line(), &sample),
             Err(error) => {
                 let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
                 if text.is_none() && rows.may_be_cut() && reader.lacks_its_end(&error) {
@@ -282,14 +369,30 @@ pub(super) fn read(
         }
     }
     rows.check(header)?;
-    clock.finish(header)?;
-    let lacking = reader.lacking.mended(time.len(), options.drop_bad)?;
+    let has_own_stamps = kept.has_own_stamps();
+    let all = kept.time.len();
+    let lacking = reader
+        .lacking
+        .mended(all, has_own_stamps, options.drop_bad)?;
+    clock.finish(header, lacking.is_apart && has_own_stamps)?;
     lacking.out.iter().for_each(|(_, bad)| dropped.count(*bad));
-    leave_out(&lacking.out, &mut time);
-    leave_out(&lacking.out, &mut lines);
-    values
-        .iter_mut()
-        .for_each(|own| leave_out(&lacking.out, own));
+    kept.leave_out(lacking.out.iter().map(|(row, _)| *row));
+    let mut filled = sparse::fill(
+        &lacking.filled,
+        &mut kept.values,
+        &kept.time,
+        header,
+        roles,
+        options,
+    )?;
+    if lacking.is_apart {
+        filled.push(kept.on_one_grid(&lacking, header, roles));
+    }
+    let Kept {
+        mut time,
+        values,
+        lines,
+    } = kept;
     long_enough(time.len(), &clock, dropped.all(), rows.line())?;
     clock.check_unit(header, &time)?;
     let mut notes: Vec<String> = rows.note().into_iter().collect();
@@ -300,14 +403,7 @@ pub(super) fn read(
     notes.extend(reader.said());
     notes.extend(below);
     notes.extend(dropped.note());
-    notes.extend(sparse::fill(
-        &lacking.filled,
-        &mut values,
-        &time,
-        header,
-        roles,
-        options,
-    )?);
+    notes.extend(filled);
     Ok(Table {
         time,
         values,
@@ -321,17 +417,6 @@ pub(super) fn read(
 fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
     let unit = header.columns[roles.time?].unit.as_deref()?;
     (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))
-}
-
-/// Takes rows out of a column.
-fn leave_out<T>(out: &[(usize, Bad)], column: &mut Vec<T>) {
-    let mut out = out.iter().map(|(row, _)| *row).peekable();
-    let mut row = 0;
-    column.retain(|_| {
-        let stays = out.next_if_eq(&row).is_none();
-        row += 1;
-        stays
-    });
 }
 
 fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Result<(), RecordError> {

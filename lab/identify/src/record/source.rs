@@ -98,6 +98,11 @@ impl Row<'_> {
         }
     }
 
+    /// Whether the file may end within it.
+    pub(super) fn may_be_cut(&self) -> bool {
+        matches!(self, Self::Text(row) if row.may_be_cut)
+    }
+
     /// Whether it is a line of text with the mark of a comment, or a row that the mark leaves out. An
     /// error of a spreadsheet beside a number is none, nor is a row of numbers behind a name.
     pub(super) fn is_comment(&self, used: &[usize]) -> bool {

@@ -1,8 +1,9 @@
 //! Channels of a slower sensor that has a number in a few rows only: a temperature once a second in a
-//! log of 500 Hz.
+//! log of 500 Hz; and sensors with stamps of their own in one table.
 //!
 //! A channel with a number in fewer than half of the rows is a line through its readings. What lacks in
-//! one with more is a fault of the record, as it is in the input and the output.
+//! one with more is a fault of the record, as it is in the input and the output; unless these have
+//! most of their readings in rows in which the other has none. Then all columns are lines.
 
 use super::error::{Bad, RecordError};
 use super::header::Header;
@@ -16,6 +17,8 @@ pub(super) struct Lacking {
     cells: Vec<(usize, usize, Bad)>,
     /// The first error of each column, in the order of the rows.
     first: Vec<(usize, RecordError)>,
+    /// Rows with the stamp of the row before, where `--drop-bad` leaves such out.
+    pub(super) repeats: Vec<usize>,
 }
 
 /// What the rows are without these cells.
@@ -24,6 +27,10 @@ pub(super) struct Mended {
     pub(super) out: Vec<(usize, Bad)>,
     /// Columns of the table that are to be filled.
     pub(super) filled: Vec<usize>,
+    /// Whether input and output have stamps of their own.
+    pub(super) is_apart: bool,
+    /// Their rows with a number, where they have.
+    pub(super) readings: [Vec<usize>; 2],
 }
 
 impl Lacking {
@@ -40,26 +47,74 @@ impl Lacking {
         for (_, column, _) in &self.cells {
             lack[*column] += 1;
         }
-        (0..lack.len()).filter(|&k| 2 * lack[k] > rows).collect()
+        // Input and output are no channels.
+        (2..lack.len()).filter(|&k| 2 * lack[k] > rows).collect()
+    }
+
+    /// The rows of so many in which a column has a number.
+    fn readings(&self, column: usize, rows: usize) -> Vec<usize> {
+        let mut has = vec![true; rows];
+        let own = self.cells.iter().filter(|(_, k, _)| *k == column);
+        own.for_each(|(row, ..)| has[*row] = false);
+        (0..rows).filter(|row| has[*row]).collect()
+    }
+
+    /// The readings of input and output, where most of either are in rows without the other.
+    fn apart(&self, rows: usize) -> Option<[Vec<usize>; 2]> {
+        let is_lacking = |k: usize| self.first.iter().any(|(known, _)| *known == k);
+        if !(is_lacking(0) && is_lacking(1)) {
+            return None;
+        }
+        let [input, output] = [0, 1].map(|column| self.readings(column, rows));
+        let is_together = |row: &&usize| output.binary_search(row).is_ok();
+        let together = input.iter().filter(is_together).count();
+        (2 * together < input.len().min(output.len())).then_some([input, output])
     }
 
     /// The first cell that is no sparse channel's, in so many rows.
     pub(super) fn fault(&self, rows: usize) -> Option<RecordError> {
+        if self.apart(rows).is_some() {
+            return None;
+        }
         let sparse = self.sparse(rows);
         let mut own = self.first.iter().filter(|(k, _)| !sparse.contains(k));
         own.next().map(|(_, error)| error.clone())
     }
 
     /// Which channels are sparse; what lacks in others is a fault, or leaves its row out.
-    pub(super) fn mended(&self, rows: usize, drop_bad: bool) -> Result<Mended, RecordError> {
+    pub(super) fn mended(
+        &self,
+        rows: usize,
+        has_own_stamps: bool,
+        drop_bad: bool,
+    ) -> Result<Mended, RecordError> {
+        let is_apart = has_own_stamps || !drop_bad;
+        if let Some(readings) = self.apart(rows).filter(|_| is_apart) {
+            let mut filled: Vec<usize> = self.first.iter().map(|(k, _)| *k).collect();
+            filled.sort_unstable();
+            return Ok(Mended {
+                out: Vec::new(),
+                filled,
+                is_apart: true,
+                readings,
+            });
+        }
         if let Some(error) = self.fault(rows).filter(|_| !drop_bad) {
             return Err(error);
         }
         let filled = self.sparse(rows);
         let others = self.cells.iter().filter(|(_, k, _)| !filled.contains(k));
-        let mut out: Vec<(usize, Bad)> = others.map(|(row, _, bad)| (*row, *bad)).collect();
+        let repeats = self.repeats.iter().map(|row| (*row, Bad::Repeated));
+        let others = others.map(|(row, _, bad)| (*row, *bad));
+        let mut out: Vec<(usize, Bad)> = repeats.chain(others).collect();
+        out.sort_by_key(|(row, _)| *row);
         out.dedup_by_key(|(row, _)| *row);
-        Ok(Mended { out, filled })
+        Ok(Mended {
+            out,
+            filled,
+            is_apart: false,
+            readings: Default::default(),
+        })
     }
 }
 
@@ -127,7 +182,11 @@ fn line(values: &mut [f64], at: &[f64]) -> usize {
     values[last..].fill(end);
     for pair in readings.windows(2) {
         let (a, b) = (pair[0], pair[1]);
-        let slope = (values[b] - values[a]) / (at[b] - at[a]);
+        let width = at[b] - at[a];
+        let slope = match width > 0.0 {
+            true => (values[b] - values[a]) / width,
+            false => 0.0,
+        };
         for i in a + 1..b {
             values[i] = values[a] + slope * (at[i] - at[a]);
         }

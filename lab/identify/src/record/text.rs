@@ -69,6 +69,8 @@ pub(super) struct Row<'a> {
     pub(super) line: usize,
     /// The line on which it ends.
     pub(super) last: usize,
+    /// Whether the file may end within it.
+    pub(super) may_be_cut: bool,
 }
 
 impl<'a> Rows<'a> {
@@ -211,8 +213,10 @@ impl<'a> Rows<'a> {
         if length > rest.len() + 1 {
             return refuse("a quote is not closed before the end of the file".to_owned());
         }
+        let may_be_cut = self.may_be_cut();
         match outcome {
             Ok(_) => Ok(Some(Row {
+                may_be_cut,
                 cells: &self.cells,
                 opens,
                 line: self.line,

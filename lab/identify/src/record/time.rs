@@ -31,8 +31,8 @@ pub(super) enum Stamp {
     Kept(f64),
     /// Before `--start` or behind `--end`.
     Cut,
-    /// The stamp repeats, and such rows are left out.
-    Repeats,
+    /// The stamp of the row before \[s\], where such rows may be left out.
+    Repeats(f64),
 }
 
 /// A median step without a unit from which on milliseconds are suspected \[s\]: two
@@ -161,7 +161,7 @@ impl Clock {
                 }
                 if !fresh && t <= self.last {
                     if self.drop_bad && self.is_kept(t) {
-                        return Ok(Stamp::Repeats);
+                        return Ok(Stamp::Repeats(t));
                     }
                     self.repeated += 1;
                     let cell = || (line, row.shown(index));
@@ -197,9 +197,9 @@ impl Clock {
         self.last
     }
 
-    /// Refuses time stamps that repeat, and says what they look like; and such without a unit
-    /// that cannot be seconds.
-    pub(super) fn finish(&self, header: &Header) -> Result<(), RecordError> {
+    /// Refuses time stamps that repeat, unless they may, and says what they look like; and such
+    /// without a unit that cannot be seconds.
+    pub(super) fn finish(&self, header: &Header, may_repeat: bool) -> Result<(), RecordError> {
         if let Source::Column {
             index,
             unitless: true,
@@ -220,7 +220,7 @@ impl Clock {
         else {
             return Ok(());
         };
-        if self.drop_bad {
+        if self.drop_bad || may_repeat {
             return Ok(());
         }
         let name = &header.columns[*index].name;

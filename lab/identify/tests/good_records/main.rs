@@ -6,6 +6,7 @@ mod segments;
 #[allow(dead_code)]
 #[path = "../shared/mod.rs"]
 mod shared;
+mod stamps;
 mod times;
 mod units;
 

@@ -1,0 +1,100 @@
+//! Sensors with stamps of their own in one table.
+
+use super::rows;
+use bowden_lab::record::{parse, Options, Record};
+
+fn input(t: f64) -> f64 {
+    10.0 * (3.0 * t).sin()
+}
+
+fn output(t: f64) -> f64 {
+    25.0 * (3.0 * t + 0.2).sin()
+}
+
+/// Rows of the input at multiples of `step`, of the output `later` behind multiples of `other`, and of
+/// a channel once a second, in the order of their stamps \[ms\].
+fn merged(step: usize, later: usize, other: usize) -> String {
+    let mut rows: Vec<(usize, String)> = Vec::new();
+    for k in 0..8000 {
+        let t = k as f64 * 1e-3;
+        if k % step == 0 {
+            rows.push((k, format!("{t},{:.6},,", input(t))));
+        }
+        if k >= later && (k - later) % other == 0 {
+            rows.push((k, format!("{t},,{:.6},", output(t))));
+        }
+        if k % 1000 == 500 {
+            rows.push((k, format!("{t},,,{}", 20.0 + t)));
+        }
+    }
+    rows.sort_by_key(|(k, _)| *k);
+    let rows: Vec<String> = rows.into_iter().map(|(_, row)| row).collect();
+    super::csv("__time,x,f,temperature", &rows)
+}
+
+fn read(text: &str, drop_bad: bool) -> Record {
+    let options = Options {
+        drop_bad,
+        ..Options::default()
+    };
+    parse(text.as_bytes(), "r.csv", &options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn each_column_is_read_at_its_own_stamps() {
+    for (step, later, other, note) in [
+        (10, 3, 10, "`f` and `x` have stamps of their own (800 and 800 readings): `x` interpolated linearly at the stamps of `f`"),
+        (20, 3, 10, "`x` and `f` have stamps of their own (400 and 800 readings): `f` interpolated linearly at the stamps of `x`"),
+        // Some or all stamps are those of both, in rows of their own.
+        (10, 0, 15, "`f` and `x` have stamps of their own (534 and 800 readings): `x` interpolated linearly at the stamps of `f`"),
+        (10, 0, 10, "`f` and `x` have stamps of their own (800 and 800 readings): `x` interpolated linearly at the stamps of `f`"),
+    ] {
+        let text = merged(step, later, other);
+        for drop_bad in [false, true] {
+            let record = read(&text, drop_bad);
+            assert!(record.notes.iter().any(|own| own == note), "{:?}", record.notes);
+            let start = match step == 20 {
+                true => 0.02,
+                false => later as f64 * 1e-3,
+            };
+            let channel = &record.channel("temperature").unwrap_or_else(|| panic!("{:?}", record.notes)).values;
+            for (i, t) in record.time.iter().map(|t| t + start).enumerate() {
+                // The square of half a step, times half of the second derivative.
+                assert!((record.input.values[i] - input(t)).abs() < 90.0 * 0.005 * 0.005, "{t}");
+                assert!((record.output.values[i] - output(t)).abs() < 225.0 * 0.005 * 0.005, "{t}");
+                let expected = 20.0 + t.clamp(0.5, 7.5);
+                assert!((channel[i] - expected).abs() < 1e-9, "{t}");
+            }
+            assert_eq!(record.dropped, 0);
+        }
+    }
+}
+
+/// Gaps are no stamps of another sensor.
+#[test]
+fn rows_with_both_numbers_and_a_few_without_one_are_a_record_with_gaps() {
+    let spoil = |(i, row): (usize, String)| {
+        let cells: Vec<&str> = row.split(',').collect();
+        match i % 4 {
+            0 => format!("{},{},", cells[0], cells[1]),
+            1 => format!("{},,{}", cells[0], cells[2]),
+            _ => row,
+        }
+    };
+    let text = super::csv(
+        "t,x,f",
+        &rows()
+            .into_iter()
+            .enumerate()
+            .map(spoil)
+            .collect::<Vec<_>>(),
+    );
+    let line = parse(text.as_bytes(), "r.csv", &Options::default())
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        line,
+        "r.csv:2: column `f`: the cell is empty, but must be a number; --drop-bad drops such rows"
+    );
+    assert_eq!(read(&text, true).samples(), 200);
+}
