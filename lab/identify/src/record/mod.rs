@@ -1,4 +1,4 @@
-//! Reads a measured record: CSV, `.mat` or Parquet in, checked columns out.
+//! Reads a measured record: CSV, JSON, `.mat` or Parquet in, checked columns out.
 //!
 //! A record is a time axis, the transmission's input and output, and optional
 //! channels beside them. Nothing is repaired in silence: what the reader did
@@ -35,6 +35,7 @@ mod file;
 mod gzip;
 mod header;
 mod held;
+mod json;
 mod kind;
 mod layout;
 mod mat;
@@ -293,6 +294,9 @@ fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, Re
 
 fn text_record(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     let decoded = encoding::decode(bytes)?;
+    if json::is_json(&decoded.text) {
+        return sheet::of_json(&decoded.text, options);
+    }
     let text = blanks::as_tabs(&decoded.text);
     let mut table = layout::find(&text, options)?;
     if !decoded.is_ended {

@@ -1,11 +1,12 @@
-//! Records from files that hold columns of numbers rather than text.
+//! Records from files that hold columns rather than lines of text.
 
 use super::error::{RecordError, NAME_LENGTH};
 use super::header::Header;
 use super::parquet_file::File;
 use super::roles::{self, Roles};
 use super::source::{Sheet, Source};
-use super::{mat, Column, Options, Record};
+use super::text::Rows;
+use super::{json, mat, Column, Options, Record};
 
 /// The columns of a file by name.
 pub(super) struct Columns {
@@ -64,8 +65,8 @@ pub(super) fn of_parquet(bytes: &[u8]) -> Result<Columns, RecordError> {
     })
 }
 
-/// The record of a file's columns; only those that have a part are read.
-pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordError> {
+/// Refuses options for the names of a text, which the columns of such a file have.
+fn without_lines(options: &Options) -> Result<(), RecordError> {
     if let Some(line) = options.header_line {
         return Err(RecordError::new(format!(
             "--header-line {line}: the file has no lines; its columns have names already"
@@ -81,6 +82,34 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
             "--names: the file is not text; its columns have names already",
         ));
     }
+    Ok(())
+}
+
+/// The record of a table of JSON.
+pub(super) fn of_json(text: &str, options: &Options) -> Result<Record, RecordError> {
+    let table = json::read(text, &options.names)?;
+    let names = match table.is_given {
+        true => Vec::new(),
+        false => options.names.clone(),
+    };
+    without_lines(&Options {
+        names,
+        ..options.clone()
+    })?;
+    let mut header = Header::of(table.names())?;
+    let roles = roles::assign(&mut header, options)?;
+    let rows = same_length(&header, &roles, &table.lengths())?;
+    let used: Vec<usize> = roles.time.into_iter().chain(roles.read()).collect();
+    let text = table.text(rows, &used);
+    let rows = Source::Text(Box::new(Rows::separated_by(b';', &text)));
+    let mut record = super::record(&header, roles, rows, options)?;
+    record.notes.splice(0..0, table.notes);
+    Ok(record)
+}
+
+/// The record of a file's columns; only those that have a part are read.
+pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordError> {
+    without_lines(options)?;
     let Columns {
         mut header,
         mut stored,
@@ -98,7 +127,8 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
             };
         }
     }
-    let rows = same_length(&header, &roles, &columns)?;
+    let lengths: Vec<usize> = columns.iter().map(Vec::len).collect();
+    let rows = same_length(&header, &roles, &lengths)?;
     let sheet = Sheet {
         columns,
         rows,
@@ -108,17 +138,13 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
 }
 
 /// The length that all columns which are read have.
-fn same_length(
-    header: &Header,
-    roles: &Roles,
-    columns: &[Vec<Option<f64>>],
-) -> Result<usize, RecordError> {
+fn same_length(header: &Header, roles: &Roles, lengths: &[usize]) -> Result<usize, RecordError> {
     let first = roles.time.unwrap_or(roles.input);
-    let length = columns[first].len();
-    match roles.read().find(|index| columns[*index].len() != length) {
+    let length = lengths[first];
+    match roles.read().find(|index| lengths[*index] != length) {
         Some(other) => Err(RecordError::new(format!(
             "has {} values; it must have {length}, as `{}` does",
-            columns[other].len(),
+            lengths[other],
             super::error::shown(&header.columns[first].name, NAME_LENGTH)
         ))
         .on(&header.columns[other].name)),

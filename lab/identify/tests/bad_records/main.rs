@@ -3,6 +3,7 @@
 
 mod expected;
 mod forms;
+mod json;
 mod plain;
 mod segments;
 mod signals;
@@ -441,6 +442,15 @@ proptest! {
         holds(text.as_bytes(), &Options::default());
         let options = Options { rate: Some(1.0), ..Options::default() };
         holds(format!("t,x,f\n{text}").as_bytes(), &options);
+    }
+
+    #[test]
+    fn no_json_makes_the_reader_panic(
+        text in "[\\[{]([tx\"]|\"t\":|\"x\":|null|NaN|[-0-9.e,:{}\\[\\] \n]){0,120}",
+    ) {
+        holds(text.as_bytes(), &Options::default());
+        let own = rows().join("],[");
+        holds(format!("[[\"t\",\"x\",\"f\"],[{own}],{text}").as_bytes(), &Options::default());
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Good records are read: in every spelling, cut, held, quantised, and measured by others.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod json;
 mod names;
 mod segments;
 #[allow(dead_code)]

@@ -1,0 +1,487 @@
+//! JSON: an array of records, one record a line, or an object of columns.
+//!
+//! A record is an object; what is within it has its path for a name, `pose.x` or `pose.0`. A row is
+//! an array in the order of names beside it or in `--names`. The table may be within other data, as
+//! long as there is one. Its cells become text, so that stamps, gaps and faults are those of any
+//! other text; a line is a record.
+
+use super::error::{shown, RecordError, NAME_LENGTH};
+use super::MIN_SAMPLES;
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::fmt;
+
+/// One value with all that is in it.
+enum Json {
+    Cell(Cell),
+    List(Vec<Json>),
+    Object(Vec<(String, Json)>),
+}
+
+/// A value without parts.
+#[derive(Clone, Default)]
+enum Cell {
+    #[default]
+    Empty,
+    Number(f64),
+    Text(Box<str>),
+}
+
+/// A table of JSON.
+#[derive(Default)]
+pub(super) struct Table {
+    columns: Vec<Column>,
+    /// Whether its columns have the names that were given.
+    pub(super) is_given: bool,
+    pub(super) notes: Vec<String>,
+}
+
+struct Column {
+    /// Its whole name, `run.signals.x`.
+    path: String,
+    unit: Option<String>,
+    cells: Vec<Cell>,
+}
+
+/// Records or rows, and the names of their columns where these are beside them.
+struct Rows {
+    path: String,
+    rows: Vec<Json>,
+    names: Vec<String>,
+}
+
+/// Whether a text is JSON: names of columns do not begin so.
+pub(super) fn is_json(text: &str) -> bool {
+    let mut signs = text.chars().filter(|c| !c.is_whitespace());
+    match signs.next() {
+        Some('{') => signs.next() == Some('"'),
+        Some('[') => matches!(signs.next(), Some('{' | '[')),
+        _ => false,
+    }
+}
+
+/// The table of a text; `names` are those of rows that have none.
+pub(super) fn read(text: &str, names: &[String]) -> Result<Table, RecordError> {
+    let mut notes = Vec::new();
+    let mut all = values(&without_nan(text), &mut notes)?;
+    let mut table = match (all.len(), all.pop()) {
+        (1, Some(Json::Object(fields))) => within(fields, names)?,
+        (1, Some(Json::List(rows))) => of_rows(Rows::new(String::new(), rows), names)?,
+        (_, last) => {
+            all.extend(last);
+            of_rows(Rows::new(String::new(), all), names)?
+        }
+    };
+    table.notes.extend(notes);
+    Ok(table)
+}
+
+impl Table {
+    /// Name, unit and whole name of each column; a name that two have says nothing.
+    pub(super) fn names(&self) -> Vec<(String, Option<String>, String)> {
+        let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+        let mut count: HashMap<String, usize> = HashMap::new();
+        for column in &self.columns {
+            *count.entry(last(&column.path)).or_default() += 1;
+        }
+        let named = |column: &Column| {
+            let (path, own) = (column.path.clone(), last(&column.path));
+            // `pose.0` is no name without `pose`.
+            let is_own = count.get(&own) == Some(&1) && own.parse::<f64>().is_err();
+            let name = if is_own { own } else { path.clone() };
+            (name, column.unit.clone(), path)
+        };
+        self.columns.iter().map(named).collect()
+    }
+
+    pub(super) fn lengths(&self) -> Vec<usize> {
+        self.columns.iter().map(|own| own.cells.len()).collect()
+    }
+
+    /// The first rows as text, with `;` between the cells; columns that are not used stay blank.
+    pub(super) fn text(&self, rows: usize, used: &[usize]) -> String {
+        let mut all = String::new();
+        for row in 0..rows {
+            for (index, column) in self.columns.iter().enumerate() {
+                if index > 0 {
+                    all.push(';');
+                }
+                match column.cells.get(row).filter(|_| used.contains(&index)) {
+                    Some(Cell::Number(value)) => all += &value.to_string(),
+                    Some(Cell::Text(text)) => {
+                        let own = text.replace('"', "\"\"").replace(char::is_control, " ");
+                        all += &format!("\"{own}\"");
+                    }
+                    _ => {}
+                }
+            }
+            all.push('\n');
+        }
+        all
+    }
+}
+
+/// The values of a text, one behind the other; the last one may be cut off where there are several.
+fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, RecordError> {
+    let mut all = Vec::new();
+    for value in serde_json::Deserializer::from_str(text).into_iter::<Json>() {
+        match value {
+            Ok(value) => all.push(value),
+            Err(error) if error.is_eof() && all.len() > 1 => {
+                let line = all.len() + 1;
+                notes.push(format!(
+                    "line {line}, the last one, dropped: the file ends within it"
+                ));
+            }
+            Err(error) => {
+                let place = format!(" at line {} column {}", error.line(), error.column());
+                let why = error.to_string().replace(&place, "");
+                let why = shown(&why, 2 * NAME_LENGTH);
+                let message = format!("the file begins as JSON, but is not valid here: {why}");
+                return Err(RecordError::at(error.line(), message));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// The text with `null` in the place of `NaN`, which Python writes and JSON lacks.
+fn without_nan(text: &str) -> Cow<'_, str> {
+    const NAN: &str = "NaN";
+    let (mut all, mut copied) = (String::new(), 0);
+    let (mut is_quoted, mut is_escaped) = (false, false);
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            _ if is_escaped => is_escaped = false,
+            b'\\' => is_escaped = is_quoted,
+            b'"' => is_quoted = !is_quoted,
+            b'N' if !is_quoted && text[at..].starts_with(NAN) => {
+                all += &text[copied..at];
+                all += "null";
+                copied = at + NAN.len();
+            }
+            _ => {}
+        }
+    }
+    match copied {
+        0 => Cow::Borrowed(text),
+        _ => Cow::Owned(all + &text[copied..]),
+    }
+}
+
+/// The columns, or the one table of records or rows, within an object.
+fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, RecordError> {
+    let (mut columns, mut tables) = (Vec::new(), Vec::new());
+    collect("", fields, &mut columns, &mut tables);
+    // Lists of a few numbers describe the rig.
+    let is_record = |column: &Column| column.cells.len() >= MIN_SAMPLES;
+    if columns.iter().any(is_record) || tables.iter().any(|own| own.rows.len() >= MIN_SAMPLES) {
+        columns.retain(is_record);
+        tables.retain(|own| own.rows.len() >= MIN_SAMPLES);
+    }
+    match (columns.is_empty(), tables.pop()) {
+        (false, None) => Ok(Table {
+            columns,
+            ..Table::default()
+        }),
+        (true, Some(rows)) if tables.is_empty() => of_rows(rows, names),
+        (_, None) => Err(RecordError::new(
+            "the JSON holds no table: allowed are an array of records, one record a line, or an object of columns",
+        )),
+        (_, Some(last)) => {
+            let paths = tables.iter().chain([&last]).map(|own| own.path.as_str());
+            let paths = paths.chain(columns.first().map(|own| own.path.as_str()));
+            let paths: Vec<String> = paths
+                .take(3)
+                .map(|path| format!("`{}`", shown(path, NAME_LENGTH)))
+                .collect();
+            Err(RecordError::new(format!(
+                "the JSON holds several tables ({}); put each into a file of its own",
+                paths.join(", ")
+            )))
+        }
+    }
+}
+
+/// The columns and tables among the fields of an object.
+fn collect(
+    prefix: &str,
+    fields: Vec<(String, Json)>,
+    columns: &mut Vec<Column>,
+    tables: &mut Vec<Rows>,
+) {
+    let beside: Vec<Vec<String>> = fields.iter().filter_map(|(_, own)| texts(own)).collect();
+    for (name, value) in fields {
+        let path = match prefix {
+            "" => name,
+            _ => format!("{prefix}.{name}"),
+        };
+        match value {
+            Json::List(rows) if rows.iter().all(|row| !matches!(row, Json::Cell(_))) => {
+                let mut own = Rows::new(path, rows);
+                let width = own.width();
+                let names = beside.iter().find(|names| Some(names.len()) == width);
+                own.names = names.cloned().unwrap_or_default();
+                tables.extend((!own.rows.is_empty()).then_some(own));
+            }
+            Json::List(values) => columns.extend(column(path, None, values)),
+            Json::Object(fields) => match with_unit(&path, fields) {
+                Ok(column) => columns.push(column),
+                Err(fields) => collect(&path, fields, columns, tables),
+            },
+            Json::Cell(_) => {}
+        }
+    }
+    // A list of texts that names the columns of a table is no column itself.
+    if tables.iter().any(|own| !own.names.is_empty()) {
+        columns.retain(|own| own.cells.iter().any(|cell| !matches!(cell, Cell::Text(_))));
+    }
+}
+
+/// A list of texts.
+fn texts(value: &Json) -> Option<Vec<String>> {
+    let Json::List(all) = value else { return None };
+    let text = |own: &Json| match own {
+        Json::Cell(Cell::Text(text)) => Some(text.to_string()),
+        _ => None,
+    };
+    all.iter().map(text).collect()
+}
+
+/// A column of values without parts.
+fn column(path: String, unit: Option<String>, values: Vec<Json>) -> Option<Column> {
+    let cell = |value: Json| match value {
+        Json::Cell(cell) => Some(cell),
+        _ => None,
+    };
+    let cells: Vec<Cell> = values.into_iter().map(cell).collect::<Option<_>>()?;
+    (cells.len() > 1).then_some(Column { path, unit, cells })
+}
+
+/// The column that an object is: `values` with their `unit`, or values by their number, as pandas
+/// writes them.
+fn with_unit(path: &str, mut fields: Vec<(String, Json)>) -> Result<Column, Vec<(String, Json)>> {
+    let is_cell = |own: &Json| matches!(own, Json::Cell(_));
+    let is_numbered = |(name, own): &(String, Json)| name.parse::<usize>().is_ok() && is_cell(own);
+    if fields.len() > 1 && fields.iter().all(is_numbered) {
+        let values = fields.into_iter().map(|(_, value)| value).collect();
+        return column(path.to_owned(), None, values).ok_or_else(Vec::new);
+    }
+    let is = |names: [&str; 2], own: &str| names.contains(&own.to_lowercase().as_str());
+    let is_values = |(name, own): &(String, Json)| match own {
+        Json::List(all) => is(["values", "data"], name) && all.iter().all(is_cell),
+        _ => false,
+    };
+    let unit = fields.iter().find_map(|(name, own)| match own {
+        Json::Cell(Cell::Text(unit)) if is(["unit", "units"], name) => Some(unit.to_string()),
+        _ => None,
+    });
+    let Some(at) = fields.iter().position(is_values).filter(|_| unit.is_some()) else {
+        return Err(fields);
+    };
+    match fields.swap_remove(at).1 {
+        Json::List(values) => column(path.to_owned(), unit, values).ok_or(fields),
+        _ => Err(fields),
+    }
+}
+
+impl Rows {
+    fn new(path: String, rows: Vec<Json>) -> Self {
+        Self {
+            path,
+            rows,
+            names: Vec::new(),
+        }
+    }
+
+    /// Number of cells, where the first row is an array.
+    fn width(&self) -> Option<usize> {
+        match self.rows.first()? {
+            Json::List(cells) => Some(cells.len()),
+            _ => None,
+        }
+    }
+}
+
+/// The columns of records, or of rows with these names.
+fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
+    let first = own.rows.first().and_then(texts);
+    let mut is_given = false;
+    if let Some(width) = own.width() {
+        if let Some(first) = first.filter(|_| own.names.is_empty() && names.is_empty()) {
+            own.names = first;
+            own.rows.remove(0);
+        }
+        is_given = own.names.is_empty();
+        if is_given {
+            own.names = names.to_vec();
+        }
+        if own.names.len() != width {
+            let message = match own.names.len() {
+                0 => "the rows of the JSON have no names; --names t,x,f names their columns"
+                    .to_owned(),
+                count => format!("{width} cells, but there are {count} names"),
+            };
+            return Err(RecordError::at(1, message));
+        }
+    }
+    let mut table = Table {
+        is_given,
+        ..Table::default()
+    };
+    if !own.path.is_empty() {
+        let path = shown(&own.path, NAME_LENGTH);
+        table.notes.push(format!("table `{path}` of the JSON"));
+    }
+    let mut places: HashMap<String, usize> = HashMap::new();
+    let count = own.rows.len();
+    let mut cells = Vec::new();
+    for (row, value) in own.rows.into_iter().enumerate() {
+        cells.clear();
+        match value {
+            Json::Object(fields) => flatten("", Json::Object(fields), &mut cells),
+            Json::List(values) if values.len() == own.names.len() => {
+                for (name, value) in own.names.iter().zip(values) {
+                    flatten(name, value, &mut cells);
+                }
+            }
+            Json::List(values) => {
+                let message = format!(
+                    "{} cells, but there are {} names",
+                    values.len(),
+                    own.names.len()
+                );
+                return Err(RecordError::at(row + 1, message));
+            }
+            Json::Cell(_) => {
+                return Err(RecordError::at(
+                    row + 1,
+                    "neither a record nor a row of the JSON",
+                ));
+            }
+        }
+        for (path, cell) in cells.drain(..) {
+            let place = *places.entry(path).or_insert_with_key(|path| {
+                table.columns.push(Column {
+                    path: path.clone(),
+                    unit: None,
+                    cells: Vec::new(),
+                });
+                table.columns.len() - 1
+            });
+            let own = &mut table.columns[place].cells;
+            own.resize(row, Cell::Empty);
+            own.push(cell);
+        }
+        // Names that change from record to record name no columns.
+        if table.columns.len() > MIN_SAMPLES * MIN_SAMPLES {
+            let message = "the records up to here have too many different names for a table";
+            return Err(RecordError::at(row + 1, message));
+        }
+    }
+    let columns = table.columns.iter_mut();
+    columns.for_each(|own| own.cells.resize(count, Cell::Empty));
+    Ok(table)
+}
+
+/// The values without parts in a value, each with its path.
+fn flatten(path: &str, value: Json, into: &mut Vec<(String, Cell)>) {
+    let below = |name: &str| match path {
+        "" => name.to_owned(),
+        _ => format!("{path}.{name}"),
+    };
+    match value {
+        Json::Cell(cell) => into.push((path.to_owned(), cell)),
+        Json::Object(fields) => {
+            for (name, value) in fields {
+                flatten(&below(&name), value, into);
+            }
+        }
+        Json::List(values) => {
+            for (index, value) in values.into_iter().enumerate() {
+                flatten(&below(&index.to_string()), value, into);
+            }
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Json {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(Values)
+    }
+}
+
+struct Values;
+
+impl<'de> Visitor<'de> for Values {
+    type Value = Json;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Json, E> {
+        Ok(Json::Cell(Cell::Empty))
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Json, E> {
+        Ok(Json::Cell(Cell::Number(f64::from(u8::from(value)))))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Json, E> {
+        Ok(Json::Cell(Cell::Number(value as f64)))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Json, E> {
+        Ok(Json::Cell(Cell::Number(value as f64)))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Json, E> {
+        Ok(Json::Cell(Cell::Number(value)))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Json, E> {
+        Ok(Json::Cell(Cell::Text(value.into())))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut from: A) -> Result<Json, A::Error> {
+        let mut all = Vec::new();
+        while let Some(value) = from.next_element()? {
+            all.push(value);
+        }
+        Ok(Json::List(all))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut from: A) -> Result<Json, A::Error> {
+        let mut all = Vec::new();
+        while let Some(field) = from.next_entry()? {
+            all.push(field);
+        }
+        Ok(Json::Object(all))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nan_is_replaced_outside_of_texts_alone() {
+        assert_eq!(
+            without_nan(r#"{"NaN": NaN, "\"NaN": [NaN,1]}"#),
+            r#"{"NaN": null, "\"NaN": [null,1]}"#
+        );
+        assert!(matches!(without_nan("[1,2]"), Cow::Borrowed(_)));
+    }
+
+    #[test]
+    fn json_is_told_from_names_of_columns() {
+        for text in ["{\"t\":[0]}", " [ {\"t\":0}]", "[[0,1]]", "\n{ \"t\": 0}\n"] {
+            assert!(is_json(text), "{text}");
+        }
+        for text in ["[t],[x],[f]", "{t},x", "\"t\",\"x\"", "t,x,f", "", "[", "{"] {
+            assert!(!is_json(text), "{text}");
+        }
+    }
+}
