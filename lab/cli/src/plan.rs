@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Plan {
-    /// A record: CSV, .mat (v5, v7.3) or Parquet.
+    /// A record: CSV, JSON, .mat (v5, v7.3), Parquet or .npz.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,

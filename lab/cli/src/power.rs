@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Power {
-    /// A record: CSV, .mat (v5, v7.3) or Parquet.
+    /// A record: CSV, JSON, .mat (v5, v7.3), Parquet or .npz.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,

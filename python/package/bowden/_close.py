@@ -51,7 +51,7 @@ def identify(
     * arrays: ``identify(t, tau_i=…, tau_o=…)`` in torque mode, ``identify(t, x=…, f=…)`` in
       displacement mode; they are one-dimensional, have the same length and any numeric type;
       ``t`` is in seconds, or ``None`` with ``rate``;
-    * a record: a path (CSV, .mat v5 and v7.3, or Parquet, each also in gzip), a frame of pandas or
+    * a record: a path (CSV, JSON, .mat v5 and v7.3, Parquet or .npz, each also in gzip), a frame of pandas or
       polars, a table of pyarrow, a mapping of names to arrays, or a :class:`bowden.Record`;
     * a list of such records of one rig, for one joint model; with three or more, the last one is
       held out as a whole.

@@ -175,7 +175,7 @@ def read(
     units: Optional[Mapping[str, str]] = None,
     label: Optional[str] = None,
 ) -> _bowden.Record:
-    """Reads one record: a file (CSV, .mat v5 and v7.3, Parquet, each also in gzip) or a frame.
+    """Reads one record: a file (CSV, JSON, .mat v5 and v7.3, Parquet, .npz, each also in gzip) or a frame.
 
     The options are those of `bowden identify`; see :func:`identify`.
     """

@@ -1,6 +1,6 @@
 //! Every form of one record gives the same answer.
 
-use crate::record::{csv, foreign, german, gzip, latin_1, rows, utf_16, values, Folder, NAMES};
+use crate::record::{csv, foreign, german, gzip, latin_1, ndjson, rows, utf_16, values, Folder, NAMES};
 use crate::shell::{refused, said, without_seconds};
 use bowden_lab::facts::{Asked, Options, Record};
 use std::path::Path;
@@ -32,6 +32,8 @@ fn every_form_gives_the_same_answer_to_the_byte() {
         (foreign("vectors.mat").display().to_string(), ""),
         (foreign("vectors_7_3.mat").display().to_string(), ""),
         (foreign("snappy.parquet").display().to_string(), ""),
+        (foreign("vectors.npz").display().to_string(), ""),
+        (folder.file("log.ndjson", ndjson()), ""),
         (
             folder.file(
                 "vectors.mat.gz",
@@ -109,6 +111,8 @@ fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_colum
         "structure_7_3.mat",
         "cells_7_3.mat",
         "trace_7_3.mat",
+        "matrix.npz",
+        "structured.npz",
         "none.parquet",
         "gzip.parquet",
         "lz4.parquet",

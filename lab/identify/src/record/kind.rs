@@ -1,6 +1,7 @@
 //! What a file is by its first bytes, whatever its name.
 
 use super::error::RecordError;
+use super::npz;
 
 /// The forms that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +12,8 @@ pub(super) enum Kind {
     /// Of version 7.3, which is HDF5.
     MatHdf5,
     Parquet,
+    /// A zip archive of NumPy's arrays.
+    Npz,
 }
 
 /// Forms that are not read: their first bytes, their name, and what to do instead.
@@ -55,7 +58,7 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
     (
         b"\x93NUMPY",
         "a NumPy array",
-        "save it as CSV or .mat with column names",
+        "save its columns by name with `np.savez`",
     ),
     (
         b"SQLite format 3\0",
@@ -104,6 +107,9 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     // The version and the order of its bytes, behind a text that anyone may have written.
     if matches!(bytes.get(124..128), Some(b"\x00\x01IM" | b"\x01\x00MI")) {
         return Ok(Kind::Mat);
+    }
+    if npz::is_npz(bytes) {
+        return Ok(Kind::Npz);
     }
     if is_mat_4(bytes) {
         return refuse("a MATLAB file of version 4", V7);

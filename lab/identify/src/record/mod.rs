@@ -1,4 +1,4 @@
-//! Reads a measured record: CSV, JSON, `.mat` or Parquet in, checked columns out.
+//! Reads a measured record: CSV, JSON, `.mat`, Parquet or `.npz` in, checked columns out.
 //!
 //! A record is a time axis, the transmission's input and output, and optional
 //! channels beside them. Nothing is repaired in silence: what the reader did
@@ -39,6 +39,7 @@ mod json;
 mod kind;
 mod layout;
 mod mat;
+mod npz;
 mod number;
 mod parquet_file;
 mod roles;
@@ -286,6 +287,7 @@ fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, Re
         Kind::Mat => sheet::record(sheet::of_mat(bytes)?, options),
         Kind::MatHdf5 => sheet::record(sheet::of_mat_hdf5(bytes)?, options),
         Kind::Parquet => sheet::record(sheet::of_parquet(bytes)?, options),
+        Kind::Npz => sheet::record(sheet::of_npz(bytes)?, options),
         Kind::Gzip => Err(RecordError::new(
             "is compressed with gzip twice; unpack it once",
         )),

@@ -6,7 +6,7 @@ use super::parquet_file::File;
 use super::roles::{self, Roles};
 use super::source::{Sheet, Source};
 use super::text::Rows;
-use super::{json, mat, Column, Options, Record};
+use super::{json, mat, npz, Column, Options, Record};
 
 /// The columns of a file by name.
 pub(super) struct Columns {
@@ -21,6 +21,10 @@ enum Stored {
 
 pub(super) fn of_mat(bytes: &[u8]) -> Result<Columns, RecordError> {
     of_vectors(mat::read(bytes)?)
+}
+
+pub(super) fn of_npz(bytes: &[u8]) -> Result<Columns, RecordError> {
+    of_vectors(mat::vectors(npz::variables(bytes))?)
 }
 
 pub(super) fn of_mat_hdf5(bytes: &[u8]) -> Result<Columns, RecordError> {

@@ -3,6 +3,7 @@
 
 mod json;
 mod names;
+mod npz;
 mod segments;
 #[allow(dead_code)]
 #[path = "../shared/mod.rs"]

@@ -86,6 +86,9 @@ savemat(
     oned_as="row",
 )
 pq.write_table(pa.table([t, x, f, load], names), FOLDER / "snappy.parquet", row_group_size=2000)
+np.savez_compressed(
+    FOLDER / "vectors.npz", t=t, x_mm=x, f_N=f, load_N=load, rate=256.0, who="rig 3"
+)
 # The same in version 7.3: chunks, shuffled and compressed, as MATLAB writes long vectors.
 file = Hdf5("vectors_7_3.mat")
 for name, values in zip(names, [t, x, f, load]):
@@ -105,6 +108,9 @@ cells = np.array(names, dtype=object)
 savemat(FOLDER / "cells.mat", {"data": matrix.T, "names": cells}, do_compression=True)
 savemat(FOLDER / "letters.mat", {"data": matrix, "names": np.array(names)}, do_compression=True)
 savemat(FOLDER / "nameless.mat", {"data": matrix.T}, do_compression=True)
+np.savez(FOLDER / "matrix.npz", data=matrix.T, names=np.array(names))
+log = np.rec.fromarrays([t, x, f, load], dtype=[(name, "<f8") for name in names])
+np.savez_compressed(FOLDER / "structured.npz", log=log)
 # As trace exports write it: an axis and signals with names, units and data.
 signals = np.zeros(3, dtype=[("Name", object), ("Unit", object), ("Data", object)])
 for own, signal in zip(signals, [("x", "mm", x), ("f", "N", f), ("load", "N", load)]):

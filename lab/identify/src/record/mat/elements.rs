@@ -16,7 +16,7 @@ const DEEPEST: usize = 6;
 
 /// What a variable holds.
 #[derive(Debug, PartialEq)]
-pub(super) enum Value {
+pub(in crate::record) enum Value {
     /// Real numbers, column by column.
     Numbers {
         dims: Vec<usize>,

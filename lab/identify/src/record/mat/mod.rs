@@ -11,12 +11,12 @@ mod elements;
 mod hdf5;
 
 use super::error::RecordError;
-use elements::Value;
+pub(super) use elements::Value;
 
 /// Vectors deeper than this in structures are not looked for.
 const DEEPEST: usize = 4;
 /// A matrix with more columns than this is a picture.
-const MOST_COLUMNS: usize = 256;
+pub(super) const MOST_COLUMNS: usize = 256;
 
 /// A column with all that may name it.
 pub(super) struct Vector {
@@ -38,7 +38,10 @@ pub(super) fn read_hdf5(bytes: &[u8]) -> Result<Vec<Vector>, RecordError> {
     vectors(hdf5::variables(bytes))
 }
 
-fn vectors(variables: Result<Vec<(String, Value)>, String>) -> Result<Vec<Vector>, RecordError> {
+/// The columns of variables, or why there are none.
+pub(super) fn vectors(
+    variables: Result<Vec<(String, Value)>, String>,
+) -> Result<Vec<Vector>, RecordError> {
     let variables = variables.map_err(RecordError::new)?;
     let mut found = Vec::new();
     fields("", &variables, 0, &mut found);

@@ -1,0 +1,278 @@
+//! NumPy's `.npz`: a zip archive with one array a file.
+//!
+//! Sources: PKWARE, *APPNOTE.TXT*; NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of
+//! numbers is a vector, or a matrix whose columns an array of as many texts names; the fields of a
+//! structured array are vectors. Every length is checked against the bytes that there are.
+
+use super::file::LIMIT;
+use super::mat::{Value, MOST_COLUMNS};
+use flate2::read::DeflateDecoder;
+use flate2::Crc;
+use std::io::Read;
+
+/// Why the bytes are no archive of arrays.
+type Damage = String;
+
+fn damaged(what: &str) -> Damage {
+    format!("the file is damaged: {what}")
+}
+
+/// Whether the bytes are a zip archive whose first file is an array.
+pub(super) fn is_npz(bytes: &[u8]) -> bool {
+    let name = || {
+        let length = number::<2>(bytes, 26).ok()?;
+        bytes.get(30..)?.get(..length)
+    };
+    bytes.starts_with(b"PK\x03\x04") && name().is_some_and(|name| name.ends_with(b".npy"))
+}
+
+/// The arrays of an archive, each with its name.
+pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
+    let end = b"PK\x05\x06";
+    let end = bytes.windows(end.len()).rposition(|own| own == end);
+    let end = end.ok_or_else(|| damaged("the zip archive has no end"))?;
+    let count = number::<2>(bytes, end + 10)?;
+    let mut at = number::<4>(bytes, end + 16)?;
+    let mut left = LIMIT;
+    let mut all = Vec::new();
+    for _ in 0..count {
+        let lengths = [28, 30, 32].map(|field| number::<2>(bytes, at + field));
+        let [name, extra, comment] = lengths;
+        let (name, extra, comment) = (name?, extra?, comment?);
+        let own = slice(bytes, at + 46, name)?;
+        let own = String::from_utf8_lossy(own).into_owned();
+        if let Some(own) = own.strip_suffix(".npy") {
+            let file = unpacked(bytes, at, left)?;
+            left -= file.len() as u64;
+            all.push((own.to_owned(), array(&file)?));
+        }
+        at += 46 + name + extra + comment;
+    }
+    Ok(all)
+}
+
+/// The bytes of the file whose entry in the directory begins there; at most `left` of them.
+fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
+    let field = |at: usize| number::<2>(bytes, entry + at);
+    let (flags, method) = (field(8)?, field(10)?);
+    let check = number::<4>(bytes, entry + 16)?;
+    let packed = number::<4>(bytes, entry + 20)?;
+    let local = number::<4>(bytes, entry + 42)?;
+    if flags % 2 == 1 {
+        return Err("is encrypted; save it without a password".to_owned());
+    }
+    let names = number::<2>(bytes, local + 26)? + number::<2>(bytes, local + 28)?;
+    let packed = slice(bytes, local + 30 + names, packed)?;
+    let mut file = Vec::new();
+    let read = match method {
+        0 => packed.take(left + 1).read_to_end(&mut file),
+        8 => DeflateDecoder::new(packed)
+            .take(left + 1)
+            .read_to_end(&mut file),
+        _ => {
+            return Err(format!(
+                "the zip archive has the compression {method}; use np.savez or np.savez_compressed"
+            ))
+        }
+    };
+    read.map_err(|error| damaged(&error.to_string()))?;
+    if file.len() as u64 > left {
+        return Err(format!(
+            "is larger than {} MiB unpacked; cut it into records",
+            LIMIT >> 20
+        ));
+    }
+    let mut own = Crc::new();
+    own.update(&file);
+    match own.sum() as usize == check {
+        true => Ok(file),
+        false => Err(damaged("a check sum is wrong")),
+    }
+}
+
+/// The array of a file.
+fn array(file: &[u8]) -> Result<Value, Damage> {
+    if !file.starts_with(b"\x93NUMPY") {
+        return Err(damaged("an array has no header"));
+    }
+    let (from, length) = match file.get(6) {
+        Some(1) => (10, number::<2>(file, 8)?),
+        _ => (12, number::<4>(file, 8)?),
+    };
+    let header = String::from_utf8_lossy(slice(file, from, length)?).into_owned();
+    let data = file.get(from + length..).unwrap_or_default();
+    let value = |key: &str| header.split_once(key).map(|(_, rest)| rest.trim_start());
+    let shape = value("'shape':").and_then(|rest| rest.strip_prefix('(')?.split_once(')'));
+    let shape: Option<Vec<usize>> = shape.and_then(|(list, _)| {
+        let sizes = list
+            .split(',')
+            .map(str::trim)
+            .filter(|size| !size.is_empty());
+        sizes.map(|size| size.parse().ok()).collect()
+    });
+    let (Some(shape), Some(kind)) = (shape, value("'descr':")) else {
+        return Err(damaged("the header of an array"));
+    };
+    let by_column = value("'fortran_order':").is_some_and(|own| own.starts_with("True"));
+    let fields = fields(kind);
+    let size: usize = fields.iter().map(|(_, kind)| kind.size).sum();
+    let cells = shape
+        .iter()
+        .try_fold(1_usize, |all, size| all.checked_mul(*size));
+    if fields.is_empty() || size == 0 || shape.len() > 2 {
+        return Ok(Value::Other);
+    }
+    let rows =
+        cells.and_then(|cells| Some(data.get(..cells.checked_mul(size)?)?.chunks_exact(size)));
+    let rows = rows.ok_or_else(|| damaged("an array ends early"))?;
+    if let [(name, kind)] = fields.as_slice() {
+        return Ok(match (kind.letter, shape.as_slice()) {
+            ('U' | 'S', [_]) => Value::Text(rows.map(|cell| kind.text(cell)).collect()),
+            _ if !name.is_empty() => structure(&fields, rows),
+            (_, shape) => numbers(
+                rows.map(|cell| kind.number(cell)).collect(),
+                shape,
+                by_column,
+            ),
+        });
+    }
+    Ok(structure(&fields, rows))
+}
+
+/// The fields of a structured array as vectors.
+fn structure<'a>(fields: &[(String, Kind)], rows: impl Iterator<Item = &'a [u8]> + Clone) -> Value {
+    let mut from = 0;
+    let own = fields.iter().map(|(name, kind)| {
+        let at = from;
+        from += kind.size;
+        let cell = |row: &'a [u8]| kind.number(row.get(at..at + kind.size).unwrap_or_default());
+        let values: Option<Vec<f64>> = rows.clone().map(cell).collect();
+        let length = values.as_ref().map_or(0, Vec::len);
+        (name.clone(), numbers(values, &[length], true))
+    });
+    Value::Structures(vec![own.collect()])
+}
+
+/// Numbers column by column.
+fn numbers(values: Option<Vec<f64>>, shape: &[usize], by_column: bool) -> Value {
+    let Some(values) = values else {
+        return Value::Other;
+    };
+    let (rows, columns) = match shape {
+        [rows, columns] => (*rows, *columns),
+        _ => (values.len(), 1),
+    };
+    let values = match by_column || rows.min(columns) < 2 || rows.min(columns) > MOST_COLUMNS {
+        true => values,
+        false => {
+            let column = |k: usize| values.iter().skip(k).step_by(columns).copied();
+            (0..columns).flat_map(column).collect()
+        }
+    };
+    Value::Numbers {
+        dims: vec![rows, columns],
+        values,
+    }
+}
+
+/// The type of a cell.
+struct Kind {
+    letter: char,
+    size: usize,
+    is_big: bool,
+}
+
+/// The types of an array's cells: one without a name, or those of its fields; none where one is not
+/// known.
+fn fields(kind: &str) -> Vec<(String, Kind)> {
+    let own = match kind.strip_prefix('[') {
+        // `[('t', '<f8'), ('x', '<f8')]`: quotes around each name and each type.
+        Some(rest) => {
+            let list = rest.split(']').next().unwrap_or_default();
+            let quoted: Vec<&str> = list.split('\'').skip(1).step_by(2).collect();
+            let is_plain = list.matches('(').count() * 2 == quoted.len();
+            let pairs = quoted.chunks_exact(2).filter(|_| is_plain);
+            pairs
+                .map(|pair| Some((pair[0].to_owned(), Kind::of(pair[1])?)))
+                .collect()
+        }
+        None => {
+            let own = kind.split('\'').nth(1).and_then(Kind::of);
+            own.map(|own| vec![(String::new(), own)])
+        }
+    };
+    own.unwrap_or_default()
+}
+
+impl Kind {
+    fn of(text: &str) -> Option<Self> {
+        let own = text.trim_start_matches(['<', '>', '|', '=']);
+        let letter = own.chars().next()?;
+        let size: usize = own.get(1..)?.parse().ok()?;
+        let (size, is_known) = match letter {
+            'U' => (size.checked_mul(4)?, true),
+            'S' => (size, true),
+            'f' => (size, matches!(size, 4 | 8)),
+            'i' | 'u' => (size, matches!(size, 1 | 2 | 4 | 8)),
+            'b' => (size, size == 1),
+            _ => (size, false),
+        };
+        is_known.then_some(Self {
+            letter,
+            size,
+            is_big: text.starts_with('>'),
+        })
+    }
+
+    /// The number in a cell; `None` where the type is none of numbers.
+    fn number(&self, cell: &[u8]) -> Option<f64> {
+        let mut bytes = [0; 8];
+        for (to, from) in bytes.iter_mut().zip(cell) {
+            *to = *from;
+        }
+        if self.is_big {
+            bytes.get_mut(..self.size)?.reverse();
+        }
+        let whole = u64::from_le_bytes(bytes);
+        let unused = 64_u32.checked_sub(8 * u32::try_from(self.size).ok()?)?;
+        Some(match (self.letter, self.size) {
+            ('f', 4) => f64::from(f32::from_bits(u32::try_from(whole).ok()?)),
+            ('f', _) => f64::from_bits(whole),
+            ('i', _) => (whole.checked_shl(unused)?.cast_signed() >> unused) as f64,
+            ('u' | 'b', _) => whole as f64,
+            _ => return None,
+        })
+    }
+
+    /// The text in a cell.
+    fn text(&self, cell: &[u8]) -> String {
+        let text: String = match self.letter {
+            'S' => cell.iter().map(|byte| char::from(*byte)).collect(),
+            _ => {
+                let letter = |four: &[u8]| {
+                    let mut own: [u8; 4] = four.try_into().ok()?;
+                    if self.is_big {
+                        own.reverse();
+                    }
+                    char::from_u32(u32::from_le_bytes(own))
+                };
+                cell.chunks_exact(4).filter_map(letter).collect()
+            }
+        };
+        text.trim_end_matches('\0').to_owned()
+    }
+}
+
+/// The number of so many bytes that begins there, the last one the highest.
+fn number<const N: usize>(bytes: &[u8], at: usize) -> Result<usize, Damage> {
+    let own = slice(bytes, at, N)?;
+    Ok(own
+        .iter()
+        .rev()
+        .fold(0, |all, byte| all << 8 | usize::from(*byte)))
+}
+
+fn slice(bytes: &[u8], at: usize, length: usize) -> Result<&[u8], Damage> {
+    let own = bytes.get(at..).and_then(|rest| rest.get(..length));
+    own.ok_or_else(|| damaged("the zip archive ends early"))
+}
