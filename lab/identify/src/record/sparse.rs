@@ -3,7 +3,8 @@
 //!
 //! A channel with a number in fewer than half of the rows is a line through its readings. What lacks in
 //! one with more is a fault of the record, as it is in the input and the output; unless these have
-//! most of their readings in rows in which the other has none. Then all columns are lines.
+//! most of their readings in rows in which the other has none, or one of them has few. Then all
+//! columns are lines.
 
 use super::error::{Bad, RecordError};
 use super::header::Header;
@@ -59,21 +60,24 @@ impl Lacking {
         (0..rows).filter(|row| has[*row]).collect()
     }
 
-    /// The readings of input and output, where most of either are in rows without the other.
-    fn apart(&self, rows: usize) -> Option<[Vec<usize>; 2]> {
-        let is_lacking = |k: usize| self.first.iter().any(|(known, _)| *known == k);
-        if !(is_lacking(0) && is_lacking(1)) {
+    /// The readings of input and output, where most of either are in rows without the other, or
+    /// where one of them has a number in fewer than half of the rows.
+    /// `--drop-bad` leaves out the rows without such a number.
+    fn apart(&self, rows: usize, drop_bad: bool) -> Option<[Vec<usize>; 2]> {
+        if self.first.iter().all(|(column, _)| *column >= 2) {
             return None;
         }
         let [input, output] = [0, 1].map(|column| self.readings(column, rows));
         let is_together = |row: &&usize| output.binary_search(row).is_ok();
         let together = input.iter().filter(is_together).count();
-        (2 * together < input.len().min(output.len())).then_some([input, output])
+        let fewest = input.len().min(output.len());
+        let is_apart = 2 * together < fewest || !drop_bad && 2 * fewest < rows && together > 0;
+        is_apart.then_some([input, output])
     }
 
     /// The first cell that is no sparse channel's, in so many rows.
     pub(super) fn fault(&self, rows: usize) -> Option<RecordError> {
-        if self.apart(rows).is_some() {
+        if self.apart(rows, false).is_some() {
             return None;
         }
         let sparse = self.sparse(rows);
@@ -89,7 +93,7 @@ impl Lacking {
         drop_bad: bool,
     ) -> Result<Mended, RecordError> {
         let is_apart = has_own_stamps || !drop_bad;
-        if let Some(readings) = self.apart(rows).filter(|_| is_apart) {
+        if let Some(readings) = self.apart(rows, drop_bad).filter(|_| is_apart) {
             let mut filled: Vec<usize> = self.first.iter().map(|(k, _)| *k).collect();
             filled.sort_unstable();
             return Ok(Mended {

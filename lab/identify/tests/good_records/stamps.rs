@@ -70,6 +70,28 @@ fn each_column_is_read_at_its_own_stamps() {
     }
 }
 
+#[test]
+fn an_end_with_a_number_in_few_rows_is_read_at_its_stamps() {
+    let row = |k: i32| {
+        let t = f64::from(k) * 1e-3;
+        match k % 10 {
+            0 => format!("{t},{:.6},{:.6}", input(t), output(t)),
+            _ => format!("{t},,{:.6}", output(t)),
+        }
+    };
+    let text = super::csv("t,x,f", &(0..4000).map(row).collect::<Vec<_>>());
+    let record = read(&text, false);
+    assert_eq!(
+        record.notes,
+        ["`x` and `f` have stamps of their own (400 and 4000 readings): `f` interpolated linearly at the stamps of `x`"]
+    );
+    for (i, t) in record.time.iter().enumerate() {
+        // What was there is as it was, with six decimals.
+        assert!((record.input.values[i] - input(*t)).abs() < 1e-6);
+        assert!((record.output.values[i] - output(*t)).abs() < 1e-6);
+    }
+}
+
 /// Gaps are no stamps of another sensor.
 #[test]
 fn rows_with_both_numbers_and_a_few_without_one_are_a_record_with_gaps() {
