@@ -1,7 +1,7 @@
 //! JSON: an array of records, one record a line, or an object of columns.
 //!
 //! A record is an object; what is within it has its path for a name, `pose.x` or `pose.0`. A row is
-//! an array in the order of names beside it or in `--names`. The table may be within other data, as
+//! an array in the order of names next to it or in `--names`. The table may be within other data, as
 //! long as there is one. Its cells become text, so that stamps, gaps and faults are those of any
 //! other text; a line is a record.
 
@@ -44,7 +44,7 @@ struct Column {
     cells: Vec<Cell>,
 }
 
-/// Records or rows, and the names of their columns where these are beside them.
+/// Records or rows, and the names of their columns if these are next to them.
 struct Rows {
     path: String,
     rows: Vec<Json>,
@@ -146,7 +146,7 @@ fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, RecordError>
     Ok(all)
 }
 
-/// The text with `null` in the place of `NaN`, which Python writes and JSON lacks.
+/// The text with `null` instead of `NaN`, which Python writes and JSON lacks.
 fn without_nan(text: &str) -> Cow<'_, str> {
     const NAN: &str = "NaN";
     let (mut all, mut copied) = (String::new(), 0);
@@ -172,6 +172,14 @@ fn without_nan(text: &str) -> Cow<'_, str> {
 
 /// The columns, or the one table of records or rows, within an object.
 fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, RecordError> {
+    // Records by their number, as pandas writes them.
+    let is_numbered = |(name, own): &(String, Json)| {
+        name.parse::<usize>().is_ok() && matches!(own, Json::Object(_))
+    };
+    if fields.len() > 1 && fields.iter().all(is_numbered) {
+        let records = fields.into_iter().map(|(_, record)| record).collect();
+        return of_rows(Rows::new(String::new(), records), names);
+    }
     let (mut columns, mut tables) = (Vec::new(), Vec::new());
     collect("", fields, &mut columns, &mut tables);
     // Lists of a few numbers describe the rig.
@@ -197,7 +205,7 @@ fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, Record
                 .map(|path| format!("`{}`", shown(path, NAME_LENGTH)))
                 .collect();
             Err(RecordError::new(format!(
-                "the JSON holds several tables ({}); put each into a file of its own",
+                "the JSON holds several tables ({}); put each into a separate file",
                 paths.join(", ")
             )))
         }
@@ -211,7 +219,7 @@ fn collect(
     columns: &mut Vec<Column>,
     tables: &mut Vec<Rows>,
 ) {
-    let beside: Vec<Vec<String>> = fields.iter().filter_map(|(_, own)| texts(own)).collect();
+    let lists: Vec<Vec<String>> = fields.iter().filter_map(|(_, own)| texts(own)).collect();
     for (name, value) in fields {
         let path = match prefix {
             "" => name,
@@ -221,7 +229,7 @@ fn collect(
             Json::List(rows) if rows.iter().all(|row| !matches!(row, Json::Cell(_))) => {
                 let mut own = Rows::new(path, rows);
                 let width = own.width();
-                let names = beside.iter().find(|names| Some(names.len()) == width);
+                let names = lists.iter().find(|names| Some(names.len()) == width);
                 own.names = names.cloned().unwrap_or_default();
                 tables.extend((!own.rows.is_empty()).then_some(own));
             }

@@ -61,7 +61,7 @@ fn json_without_one_table_is_refused() {
     let list = format!("[{}]", records(|_, own| own).replace('\n', ","));
     refused(
         format!("{{\"first\": {list}, \"second\": {list}}}"),
-        "r.csv: the JSON holds several tables (`first`, `second`); put each into a file of its own",
+        "r.csv: the JSON holds several tables (`first`, `second`); put each into a separate file",
     );
     refused(
         "[[0, 1, 2], [1, 2, 3]]",

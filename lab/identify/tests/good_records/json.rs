@@ -69,6 +69,14 @@ fn records_and_columns_are_read_wherever_they_are() {
         format!("\u{feff}\n{columns}"),
         format!("{{\"run\": {{\"data\": {columns}}}, \"date\": \"now\"}}"),
         pandas,
+        format!(
+            "{{{}}}",
+            own.iter()
+                .enumerate()
+                .map(|(i, own)| format!("\"{i}\":{own}"))
+                .collect::<Vec<_>>()
+                .join(",")
+        ),
         format!("{{\"columns\": [\"t\", \"x\", \"f\"], \"data\": [{split}]}}"),
         format!("[[\"t\", \"x\", \"f\"], {split}]"),
     ] {
