@@ -95,7 +95,7 @@ fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
 
 /// Takes the units from a row of them, and what is to be said of it; `None` where it is none: a
 /// cell is a number, or no cell under a column that is read is a known unit. A word that is not
-/// known is a unit as it stands, but for that of the time.
+/// known is a unit as it is, but for that of the time.
 fn units_row(
     table: &mut Table<'_>,
     cells: &[&str],
@@ -154,7 +154,7 @@ fn units_row(
         }
         if is_strange {
             said.push(format!(
-                "unit `{}` of `{}` is not known: kept as it is",
+                "unit `{}` of `{}` is unknown: kept as it is",
                 shown(cell, NAME_LENGTH),
                 shown(&column.name, NAME_LENGTH)
             ));

@@ -181,6 +181,8 @@ const PREFIXES: [(&str, &str); 6] = [
 /// The sign of a unit that is spelt out (`Kilonewtons`) or in other letters (`KN`). `None` where
 /// it is none, where it may be two (`NM`), and where a capital would change its size (`MV`).
 fn spelt(unit: &str) -> Option<String> {
+    // An abbreviation: `sec.`, `in.`
+    let unit = unit.strip_suffix('.').unwrap_or(unit);
     if unit.chars().count() < 2 {
         return None;
     }
@@ -331,6 +333,8 @@ mod tests {
             ("foot-pounds", "ft·lbf"),
             ("KN-M", "kN·m"),
             ("Sec", "s"),
+            ("sec.", "s"),
+            ("in.", "in"),
             ("mm/Sec", "mm/s"),
             ("KN/MM", "kN/mm"),
             ("DEG", "deg"),

@@ -129,7 +129,7 @@ const OTHERS: [&str; 10] = [
 /// Endings that are words as well as units: an input, an amplitude.
 const WORDS: [&str; 2] = ["in", "amp"];
 
-/// Splits the ending such as `_mm` or `_inches` off a name, with the unit that it stands for.
+/// Splits the ending such as `_mm` or `_inches` off a name, with the unit that it means.
 pub(super) fn ending(name: &str) -> Option<(&str, String)> {
     // `velocity_mm_per_s` ends in a denominator, which is not its unit.
     let (stem, ending) = name
@@ -213,9 +213,10 @@ pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
     }
 }
 
-/// The unit of time that a name is or ends in: `millis`, `elapsed_us`, `timeMs`.
-pub(super) fn time_in_name(name: &str) -> Option<&'static str> {
-    let name = name.trim_matches(|c: char| !c.is_alphanumeric());
+/// The unit of time that a name is or ends in, and what is before it: `millis`, `elapsed_us`,
+/// `timeMs`.
+fn split_time(name: &str) -> Option<(&str, &'static str)> {
+    let name = without_signs(name);
     let last = name.rsplit(|c: char| !c.is_alphanumeric()).next()?;
     let capital = last.char_indices().zip(last.chars().skip(1));
     let capital = capital.filter(|((_, c), next)| c.is_lowercase() && next.is_uppercase());
@@ -224,16 +225,32 @@ pub(super) fn time_in_name(name: &str) -> Option<&'static str> {
         None => last,
     };
     let (unit, _) = of_time(own)?;
+    let stem = without_signs(name.strip_suffix(own)?);
     // `t_d` may be a delay.
-    (own == name || unit != "d").then_some(unit)
+    (stem.is_empty() || unit != "d").then_some((stem, unit))
 }
 
-/// Whether a name can be nothing but that of a time: `ms`, `millis` and `__time` are, `s` and `min` are
-/// not.
+/// A name without what is neither letter nor digit at its ends.
+fn without_signs(name: &str) -> &str {
+    name.trim_matches(|c: char| !c.is_alphanumeric())
+}
+
+/// The unit of time that a name is or ends in.
+pub(super) fn time_in_name(name: &str) -> Option<&'static str> {
+    split_time(name).map(|(_, unit)| unit)
+}
+
+/// Whether a name can be nothing but that of a time: `ms`, `timeMs` and `__time` are, `s` and `min`
+/// are not.
 pub(super) fn is_time_alone(name: &str) -> bool {
-    let name = name.trim_matches(|c: char| !c.is_alphanumeric());
-    let is_unit = name.chars().count() > 1 && !is_any(&["min"], name) && of_time(name).is_some();
-    is_unit || is_any(&["time", "timestamp"], name)
+    let name = without_signs(name);
+    let is_time = |own: &str| is_any(&["time", "timestamp"], own);
+    let is_unit = match split_time(name) {
+        Some(("", _)) => name.chars().count() > 1 && !is_any(&["min"], name),
+        Some((stem, _)) => stem == "t" || is_time(stem),
+        None => false,
+    };
+    is_unit || is_time(name)
 }
 
 #[cfg(test)]
@@ -281,10 +298,12 @@ mod tests {
         for name in ["t", "time", "Items", "t_d", "H", "timestamp", "", "()"] {
             assert_eq!(time_in_name(name), None, "{name}");
         }
-        for name in ["ms", "micros", "Seconds", "minutes", "__time"] {
+        for name in [
+            "ms", "micros", "Seconds", "minutes", "__time", "timeMs", "Time ms", "t.us",
+        ] {
             assert!(is_time_alone(name), "{name}");
         }
-        for name in ["s", "d", "min", "time_ms", "h"] {
+        for name in ["s", "d", "min", "x_ms", "h", "t_d", "rise time"] {
             assert!(!is_time_alone(name), "{name}");
         }
     }

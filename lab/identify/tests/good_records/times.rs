@@ -53,6 +53,9 @@ fn a_time_column_called_as_its_unit_is_in_that_unit() {
         is_plain(&record, name);
         assert_eq!(record.notes, [said], "{name}");
     }
+    for name in ["timeMs", "time ms", "t_millis", "timestamp.ms"] {
+        is_plain(&accepted(counted(&format!("{name},x,f"), 1e3)), name);
+    }
     for name in ["seconds", "Sec", "elapsed_sec", "tSec", "s"] {
         let record = timed(&counted(&format!("{name},x,f"), 1.0), name);
         is_plain(&record, name);
