@@ -47,8 +47,8 @@ pub struct Columns {
     /// Line of the column names, counted from 1 [default: detected].
     #[arg(long, value_name = "N")]
     pub header_line: Option<usize>,
-    /// Read only segment N of a text file in which the column names come again, counted from 1
-    /// [default: all segments as one record if the time goes on].
+    /// Read only segment N of a text file in which the column names are repeated, counted from 1
+    /// [default: all segments as one record if the time continues].
     #[arg(long, value_name = "N")]
     pub segment: Option<usize>,
     /// Column names of a text file without a header: t,x,f or 't [ms],,x [mm],f [N]'. An empty

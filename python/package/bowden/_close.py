@@ -77,8 +77,8 @@ def identify(
     header_line
         Line of the column names of a CSV, from 1.
     segment
-        Which segment is read of a CSV in which the column names come again, from 1; default: all
-        of them as one record if the time goes on.
+        Which segment of a CSV is read if its column names are repeated, from 1; default: all of
+        them as one record if the time continues.
     names
         Names of the columns of a text file without names, each with its unit if it has one
         (``["t", "x [mm]", "f"]``). A column with an empty name is not read.

@@ -1,6 +1,8 @@
 //! Every form of one record gives the same answer.
 
-use crate::record::{csv, foreign, german, gzip, latin_1, ndjson, rows, utf_16, values, Folder, NAMES};
+use crate::record::{
+    csv, foreign, german, gzip, latin_1, ndjson, rows, utf_16, values, Folder, NAMES,
+};
 use crate::shell::{refused, said, without_seconds};
 use bowden_lab::facts::{Asked, Options, Record};
 use std::path::Path;

@@ -42,8 +42,18 @@ pub fn csv() -> String {
 /// As loggers write JSON: one record a line.
 pub fn ndjson() -> String {
     let field = |(name, value): (&&str, &f64)| format!("{name:?}:{value}");
-    let record = |row: &[f64; 4]| NAMES.iter().zip(row).map(field).collect::<Vec<_>>().join(",");
-    rows().iter().map(|row| format!("{{{}}}\n", record(row))).collect()
+    let record = |row: &[f64; 4]| {
+        NAMES
+            .iter()
+            .zip(row)
+            .map(field)
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    rows()
+        .iter()
+        .map(|row| format!("{{{}}}\n", record(row)))
+        .collect()
 }
 
 /// As a spreadsheet in German exports it: a preamble, units below the names, decimal commas.

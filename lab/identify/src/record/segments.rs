@@ -1,8 +1,8 @@
-//! A table whose names come again: the blocks of a load frame, the segments of LabVIEW, a logger
+//! A table whose names are repeated: the blocks of a load frame, the segments of LabVIEW, a logger
 //! that was started again.
 //!
-//! Below the same names, and the same units where there are any, the rows go on. They are one
-//! record if the time goes on too; else `--segment N` picks one of the segments. What is above the
+//! Below the same names, and the same units where there are any, the rows continue. They are one
+//! record if the time continues too; else `--segment N` picks one of the segments. What is above the
 //! names of a segment is passed over as a preamble is.
 
 use super::clock_time;
@@ -22,23 +22,23 @@ pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a
         Some(number) => {
             let Some(own) = number.checked_sub(1).and_then(|index| all.get(index)) else {
                 return Err(RecordError::new(format!(
-                    "--segment {number} is out of range (1 to {count}, as often as the names of the columns appear)"
+                    "--segment {number} is out of range (1 to {count})"
                 )));
             };
             vec![*own]
         }
     };
     if let Some(other) = own.iter().find(|own| !own.is_alike) {
-        let message = "the names of the columns come again, but what is below them differs from what is below the first ones; put the records into files of their own";
+        let message = "the column names are repeated, but the lines below them differ from those below the first ones; put the records into separate files";
         return Err(RecordError::at(other.place.names, message));
     }
     match (own.as_slice(), options.rate) {
         ([_, second, ..], Some(_)) => {
-            let why = "and without a time column nothing shows whether the record goes on";
-            return Err(two_records(second.place, why));
+            let why = "the column names are repeated: without a time column bowden cannot tell whether the record continues";
+            return Err(ask(second.place, why));
         }
         ([_, second, ..], None) => table.notes.push(format!(
-            "the names of the columns come again, first in line {}: {count} segments, read as one record",
+            "the column names are repeated, first in line {}: {count} segments, read as one record",
             second.place.names
         )),
         ([one], _) if count > 1 => table.notes.push(format!(
@@ -51,20 +51,27 @@ pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a
     Ok(table)
 }
 
-/// The refusal of a segment that may be another record.
-pub(super) fn two_records(place: Place, why: &str) -> RecordError {
+/// The refusal of a segment that is another record, since its time restarts.
+pub(super) fn restarts(place: Place, last: f64, stamp: f64) -> RecordError {
+    let records = match place.count {
+        2 => "two records",
+        _ => "several records",
+    };
+    let why = format!(
+        "{records}: the column names are repeated and the time restarts, from {last} to {stamp} s"
+    );
+    ask(place, &why)
+}
+
+/// A refusal that offers a segment.
+fn ask(place: Place, why: &str) -> RecordError {
     let Place {
         names,
         number,
         count,
     } = place;
-    let records = match count {
-        2 => "two records".to_owned(),
-        _ => "several records".to_owned(),
-    };
-    let message = format!(
-        "{records}: the names of the columns come again, {why}; --segment N reads one of {count} segments (segment {number} begins here)"
-    );
+    let message =
+        format!("{why}; --segment N reads one of {count} segments (segment {number} begins here)");
     RecordError::at(names, message)
 }
 

@@ -104,7 +104,7 @@ impl Row<'_> {
     }
 
     /// Whether it is a line of text with the mark of a comment, or a row that the mark leaves out. An
-    /// error of a spreadsheet beside a number is none, nor is a row of numbers behind a name.
+    /// error of a spreadsheet next to a number is none, nor is a row of numbers behind a name.
     pub(super) fn is_comment(&self, used: &[usize]) -> bool {
         let Self::Text(row) = self else {
             return false;

@@ -110,13 +110,13 @@ impl<'a> Rows<'a> {
             .is_some_and(|own| own.place.number == own.place.count);
         self.may_be_cut &= ends;
         self.more = segments.into_iter();
-        self.go_on();
+        self.next_segment();
         self.opens = None;
         self
     }
 
-    /// Goes on to the next segment, where there is one.
-    fn go_on(&mut self) -> bool {
+    /// Continues with the next segment, if there is one.
+    fn next_segment(&mut self) -> bool {
         let Some(next) = self.more.next() else {
             return false;
         };
@@ -181,7 +181,7 @@ impl<'a> Rows<'a> {
     /// The next row, unless it is blank, too long or has an open quote.
     pub(super) fn read(&mut self) -> Result<Option<Row<'_>>, RecordError> {
         let is_over = |own: &Self| own.reader.position().byte() as usize >= own.text.len();
-        while is_over(self) && self.go_on() {}
+        while is_over(self) && self.next_segment() {}
         let start = self.reader.position().byte() as usize;
         let Some(rest) = self.text.get(start..).filter(|rest| !rest.is_empty()) else {
             return Ok(None);

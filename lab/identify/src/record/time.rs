@@ -151,8 +151,7 @@ impl Clock {
                 if t < self.last {
                     let last = first + self.last;
                     if let Some(place) = row.opens() {
-                        let why = format!("and the time restarts, from {last} to {stamp} s");
-                        return Err(segments::two_records(place, &why).on(name));
+                        return Err(segments::restarts(place, last, stamp).on(name));
                     }
                     let cell = row.text(index).filter(|_| self.of_day);
                     let restart = cell.map_or("", clock_time::restart);

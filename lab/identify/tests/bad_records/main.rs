@@ -183,7 +183,7 @@ fn a_header_that_is_none_is_refused() {
         csv("t,x [mm],x [mm],f", &wide),
         "r.csv:1: column `x`: named twice, as columns 2 and 3; --names A,B,… gives each column a name of its own",
     );
-    // Where a name is missing, twins of another name are beside the point.
+    // Where a name is missing, twins of another name do not matter.
     refused(
         csv("t,x,off,off", &wide),
         "r.csv:1: column `f`: no such column among `t`, `x`, `off`; --output COL selects another one",

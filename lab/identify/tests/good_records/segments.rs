@@ -1,9 +1,9 @@
-//! Tables whose names come again: one record where the time goes on.
+//! Tables whose names come again: one record if the time continues.
 
 use super::{accepted, csv, rows};
 use bowden_lab::record::{parse, Options, Record};
 
-/// What stands above the names, the names, and what is below them.
+/// What is above the names, the names, and what is below them.
 type Head = (&'static str, &'static str, &'static str);
 
 /// Each with a preamble of its own in every segment.
@@ -48,7 +48,7 @@ fn names_that_come_again_while_the_time_goes_on_leave_one_record() {
             .filter(|(_, line)| *line == head.1.trim());
         let second = names.map(|(index, _)| index + 1).nth(1).unwrap();
         let said = format!(
-            "the names of the columns come again, first in line {second}: 4 segments, read as one record"
+            "the column names are repeated, first in line {second}: 4 segments, read as one record"
         );
         assert!(record.notes.contains(&said), "{:?}", record.notes);
     }
@@ -69,7 +69,7 @@ fn a_segment_is_read_by_its_number() {
         [own.as_str(), &own].concat()
     };
     for head in HEADS {
-        // Of two records with four segments each, the first four go on.
+        // Of two records with four segments each, the first four belong together.
         let text = restart(head);
         let short = Options {
             segment: Some(5),
