@@ -1,7 +1,6 @@
 //! What a file is by its first bytes, whatever its name.
 
 use super::error::RecordError;
-use super::npz;
 
 /// The forms that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +107,7 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     if matches!(bytes.get(124..128), Some(b"\x00\x01IM" | b"\x01\x00MI")) {
         return Ok(Kind::Mat);
     }
-    if npz::is_npz(bytes) {
+    if is_npz(bytes) {
         return Ok(Kind::Npz);
     }
     if is_mat_4(bytes) {
@@ -118,6 +117,15 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
         Some((_, what, instead)) => refuse(what, instead),
         None => Ok(Kind::Text),
     }
+}
+
+/// Whether a zip archive begins with an array of NumPy's: the length of the name is before it.
+fn is_npz(bytes: &[u8]) -> bool {
+    let length = bytes
+        .get(26..28)
+        .map(|own| usize::from(own[0]) | usize::from(own[1]) << 8);
+    let name = length.and_then(|length| bytes.get(30..30 + length));
+    bytes.starts_with(b"PK\x03\x04") && name.is_some_and(|name| name.ends_with(b".npy"))
 }
 
 /// Version 4 has no mark: a header of five numbers and a name that ends with NUL.

@@ -17,15 +17,6 @@ fn damaged(what: &str) -> Damage {
     format!("the file is damaged: {what}")
 }
 
-/// Whether the bytes are a zip archive whose first file is an array.
-pub(super) fn is_npz(bytes: &[u8]) -> bool {
-    let name = || {
-        let length = number::<2>(bytes, 26).ok()?;
-        bytes.get(30..)?.get(..length)
-    };
-    bytes.starts_with(b"PK\x03\x04") && name().is_some_and(|name| name.ends_with(b".npy"))
-}
-
 /// The arrays of an archive, each with its name.
 pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
     let end = b"PK\x05\x06";

@@ -206,6 +206,30 @@ impl<'a> Reader<'a> {
             || last.is_some_and(|last| error.column() == Some(last.name.as_str()))
     }
 
+    /// What is to be said of the lines from an error on, if they are no rows; else the first error.
+    fn below(
+        &self,
+        error: RecordError,
+        rows: &Source<'_>,
+        clock: &Clock,
+        used: &[usize],
+    ) -> Result<String, RecordError> {
+        let first = rows.line();
+        let text = rows.text_below(used).filter(|_| clock.rows() > 0);
+        if let Some(text) = text {
+            return Ok(passed_over(first, first + text - 1, "below the table"));
+        }
+        if rows.may_be_cut() && self.lacks_its_end(&error) {
+            return Ok(format!(
+                "line {first}, the last one, dropped: the file ends within it"
+            ));
+        }
+        // Thousands in the stamps let time run backwards.
+        rows.check(self.header)?;
+        let before = self.lacking.fault(self.kept);
+        Err(before.filter(|_| !self.drop_bad).unwrap_or(error))
+    }
+
     /// Whether the row has the cells of the header: what is missing has no name, and what is
     /// more is empty.
     fn fits(&mut self, row: &Row<'_>) -> Result<(), RecordError> {
@@ -348,22 +372,7 @@ pub(super) fn read(
             Ok(Sample::Bad(bad)) => dropped.count(bad),
             Ok(Sample::At(t)) => kept.push(t, rows.line(), &sample),
             Err(error) => {
-                let text = rows.text_below(&used).filter(|_| clock.rows() > 0);
-                if text.is_none() && rows.may_be_cut() && reader.lacks_its_end(&error) {
-                    below = Some(format!(
-                        "line {}, the last one, dropped: the file ends within it",
-                        rows.line()
-                    ));
-                    break;
-                }
-                let Some(text) = text else {
-                    // Thousands in the stamps let time run backwards.
-                    rows.check(header)?;
-                    let before = reader.lacking.fault(reader.kept);
-                    return Err(before.filter(|_| !options.drop_bad).unwrap_or(error));
-                };
-                let first = rows.line();
-                below = Some(passed_over(first, first + text - 1, "below the table"));
+                below = Some(reader.below(error, rows, &clock, &used)?);
                 break;
             }
         }

@@ -20,7 +20,7 @@ fn merged(step: usize, later: usize, other: usize) -> String {
         if k % step == 0 {
             rows.push((k, format!("{t},{:.6},,", input(t))));
         }
-        if k >= later && (k - later) % other == 0 {
+        if k >= later && (k - later).is_multiple_of(other) {
             rows.push((k, format!("{t},,{:.6},", output(t))));
         }
         if k % 1000 == 500 {
