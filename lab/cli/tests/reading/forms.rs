@@ -68,6 +68,45 @@ fn a_spreadsheet_says_what_was_done_to_it() {
 }
 
 #[test]
+fn an_option_gives_a_unit_and_a_segment() {
+    let folder = Folder::new();
+    let rows = rows();
+    let slow: Vec<[f64; 4]> = rows
+        .iter()
+        .map(|[t, x, f, load]| [1e3 * t, *x, *f, *load])
+        .collect();
+    let segment = format!("tick,x,f,load\n{}", values(&slow, ","));
+    let path = folder.file("twice.csv", [segment.as_str(), &segment].concat());
+    let line = refused(&["identify", &path, "--time", "tick [ms]"]);
+    let place = format!("{path}:2562: column `tick`: ");
+    assert_eq!(
+        line,
+        format!("bowden: {place}two records: the column names are repeated and the time restarts, from 9.99609375 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)")
+    );
+    let text = said(&[
+        "identify",
+        &path,
+        "--time",
+        "tick [ms]",
+        "--segment",
+        "2",
+        "--max-terms",
+        "0",
+        "--json",
+    ]);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(json["record"]["samples"], 2560);
+    let notes = json["notes"].to_string();
+    for note in [
+        "segment 2 of 2, with its names in line 2562",
+        "unit of `tick` from --time: ms",
+        "time converted from ms to s",
+    ] {
+        assert!(notes.contains(note), "{notes}");
+    }
+}
+
+#[test]
 fn rows_that_are_left_out_are_counted_in_the_ledger_and_in_the_json() {
     let folder = Folder::new();
     let mut lines: Vec<String> = csv().lines().map(str::to_owned).collect();

@@ -85,12 +85,26 @@ fn named<'a>(mut rows: Rows<'a>, options: &Options) -> Result<Table<'a>, RecordE
 fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
     let separator = table.rows.separator();
     let (rest, before) = table.rows.rest();
-    let (first, behind) = rest.split_once('\n').unwrap_or((rest, ""));
-    if let Some(said) = units_row(&mut table, &cells(first, separator), before + 1)? {
-        table.notes.extend(said);
-        table.rows = Rows::separated_by(separator, behind).after(before + 1);
+    let mut start = 0;
+    for (index, line) in rest.split_inclusive('\n').enumerate() {
+        start += line.len();
+        if is_comment(line) {
+            continue;
+        }
+        let line_of_units = before + index + 1;
+        if let Some(said) = units_row(&mut table, &cells(line, separator), line_of_units)? {
+            table.notes.extend(said);
+            table.rows = Rows::separated_by(separator, &rest[start..]).after(line_of_units);
+        }
+        break;
     }
     Ok(table)
+}
+
+/// Whether a line, or the first cell of one, has the mark of a comment.
+pub(super) fn is_comment(line: &str) -> bool {
+    let line = line.trim_start().trim_start_matches('"');
+    ["#", "%", "//"].iter().any(|mark| line.starts_with(mark))
 }
 
 /// Takes the units from a row of them, and what is to be said of it; `None` where it is none: a
@@ -221,6 +235,25 @@ impl<'a> Head<'a> {
         numbers >= 2 && 2 * numbers >= cells.count()
     }
 
+    /// The first row of a table, of which comments may have parted rows from those that begin there.
+    fn behind_comments(&self, mut first: usize, names: usize) -> usize {
+        let is_mark = |line: usize| {
+            self.lines[line]
+                .1
+                .first()
+                .is_some_and(|own| is_comment(own))
+        };
+        let width = self.lines[first].1.len();
+        let is_row = |line: usize| self.lines[line].1.len() == width && self.is_row(line);
+        loop {
+            let above = (names + 1..first).rev().find(|line| !is_mark(*line));
+            match above.filter(|line| is_row(*line)) {
+                Some(line) => first = line,
+                None => return first,
+            }
+        }
+    }
+
     /// The lines on which a table of numbers begins.
     fn tables(&self) -> impl Iterator<Item = usize> + '_ {
         let row = |line: usize, width: usize| {
@@ -295,6 +328,7 @@ fn below<'a>(text: &'a str, options: &Options) -> Option<Result<Table<'a>, Recor
                 let own = Rows::separated_by(separator, &text[head.lines[names].0..]);
                 match named(own.after(names), options) {
                     Ok(table) => {
+                        let first = head.behind_comments(first, names);
                         let rows = &text[head.lines[first].0..];
                         let rows = Rows::separated_by(separator, rows).after(first);
                         let found = units_between(table, &head, (names, first));

@@ -3,7 +3,7 @@
 use super::clock_time;
 use super::error::RecordError;
 use super::header::Header;
-use super::layout::only_text;
+use super::layout::{is_comment, only_text};
 use super::number;
 use super::text::{self, Place};
 
@@ -110,7 +110,7 @@ impl Row<'_> {
             return false;
         };
         let first = row.cell(0);
-        let is_marked = ["#", "%", "//"].iter().any(|mark| first.starts_with(mark));
+        let is_marked = is_comment(first);
         let is_number = |index: usize| {
             let cell = row.cell(index);
             number::is_data(cell, b';') || clock_time::seconds(cell).is_some()

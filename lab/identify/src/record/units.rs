@@ -148,7 +148,9 @@ pub(super) fn ending(name: &str) -> Option<(&str, String)> {
         return Some((stem, (*unit).to_owned()));
     }
     let unit = written(ending);
-    let is_spelt = unit != ending && is_known(&unit) && !is_any(&WORDS, ending);
+    // `degrees` and `turns` are written as they are, and a letter or two are in the table above.
+    let is_word = unit != ending || ending.len() > 3;
+    let is_spelt = is_word && is_known(&unit) && !is_any(&WORDS, ending);
     // `x_sec` may be the second one.
     let is_time =
         of_time(ending).is_some() && (lower == "t" || is_of(&["time", "stamp", "elapsed"]));
@@ -367,6 +369,7 @@ mod tests {
         assert_eq!(unit("F_kN").as_deref(), Some("kN"));
         assert_eq!(unit("F_KN").as_deref(), Some("kN"));
         assert_eq!(unit("x_inches").as_deref(), Some("in"));
+        assert_eq!(unit("phi_p_degrees").as_deref(), Some("degrees"));
         assert_eq!(unit("load_Newtons").as_deref(), Some("N"));
         assert_eq!(unit("time_seconds").as_deref(), Some("s"));
         assert_eq!(unit("encoder_counts").as_deref(), Some("counts"));

@@ -133,6 +133,29 @@ fn comments_among_the_rows_are_passed_over() {
     }
     let record = accepted(with("# one\n# two words more"));
     assert_eq!(record.notes, ["2 lines ignored, from line 22 on: comments"]);
+    // Comments above the units, and between the first rows below a preamble.
+    for (head, notes) in [
+        ("t,x,f\n# in the lab\ns,mm,N", &["units from line 3"][..]),
+        (
+            "Rig 4\nt,x,f\n% in the lab\ns,mm,N",
+            &[
+                "line 1 above the names ignored",
+                "units from line 4",
+                "line 3 between names and values ignored",
+            ],
+        ),
+        ("Rig 4\nt,x,f", &["line 1 above the names ignored"]),
+    ] {
+        let text = csv(head, &rows()).replacen("\n0.01,", "\n# warm\n0.01,", 1);
+        let record = accepted(&text);
+        assert_eq!(record.time, plain.time, "{head}");
+        assert_eq!(record.notes[..notes.len()], *notes, "{head}");
+        assert!(
+            record.notes[notes.len()].contains("ignored: a comment"),
+            "{:?}",
+            record.notes
+        );
+    }
     // A mark before a name is none of a comment, nor is an error of a spreadsheet.
     let numbered = |(i, row): (usize, &String)| format!("#{i},{row}");
     let numbered: Vec<String> = rows().iter().enumerate().map(numbered).collect();
