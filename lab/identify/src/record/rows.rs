@@ -402,7 +402,12 @@ pub(super) fn read(
         values,
         lines,
     } = kept;
-    long_enough(time.len(), &clock, dropped.all(), rows.line())?;
+    let why = match (dropped.all() > 0, lacking.is_apart) {
+        (true, _) => "after cutting and --drop-bad",
+        (false, true) => "at the stamps of the column with the fewest numbers",
+        (false, false) => "after cutting",
+    };
+    long_enough(time.len(), &clock, why, rows.line())?;
     clock.check_unit(header, &time)?;
     let mut notes: Vec<String> = rows.note().into_iter().collect();
     notes.extend(clock.notes(&time));
@@ -428,16 +433,15 @@ fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
     (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))
 }
 
-fn long_enough(left: usize, clock: &Clock, dropped: usize, line: usize) -> Result<(), RecordError> {
+fn long_enough(left: usize, clock: &Clock, why: &str, line: usize) -> Result<(), RecordError> {
     if left >= MIN_SAMPLES {
         return Ok(());
     }
     let all = clock.rows();
     let samples = if left == 1 { "sample" } else { "samples" };
-    let cut = match (left < all, dropped > 0) {
-        (true, true) => format!(" of {all} are left after cutting and --drop-bad"),
-        (true, false) => format!(" of {all} are left after cutting"),
-        _ => String::new(),
+    let cut = match left < all {
+        true => format!(" of {all} are left {why}"),
+        false => String::new(),
     };
     // An option in the file's own stamps, which may be seconds since 1970.
     let counts = match all > 0 && clock.cut() == all {

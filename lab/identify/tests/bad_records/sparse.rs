@@ -86,6 +86,11 @@ fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
         line.starts_with("r.csv:2: column `f`: the cell is empty"),
         "{line}"
     );
+    let few = with_temperature(0, 4, "").replacen("f,temperature", "load,f", 1);
+    refused(
+        few,
+        "r.csv:401: too short: 100 samples of 400 are left at the stamps of the column with the fewest numbers; the minimum is 200",
+    );
     let none = csv(
         "t,x,f,temperature",
         &rows()
