@@ -113,7 +113,12 @@ fn segments<'a>(table: &Table<'a>) -> Vec<Segment<'a>> {
     let at = |line: usize| lines.get(line).map_or(text.len(), |(at, _)| *at);
     let rows = |line: usize| lines.get(line).is_some_and(|(_, own)| is_row(own));
     let (mut all, mut first) = (Vec::new(), 0);
-    for again in (0..lines.len()).filter(|line| lines[*line].1.trim() == names) {
+    let is_names = |line: &str| line.trim() == names;
+    for again in (0..lines.len()).filter(|line| is_names(lines[*line].1)) {
+        // Names below names are those of one segment.
+        if again < first {
+            continue;
+        }
         // What is above the names, from the last row on, is a preamble.
         let end = (first..again)
             .rev()
@@ -125,7 +130,8 @@ fn segments<'a>(table: &Table<'a>) -> Vec<Segment<'a>> {
             .find(|line| rows(*line))
             .unwrap_or(lines.len());
         let own = lines[again + 1..values].iter().map(|(_, line)| line.trim());
-        segment.is_alike = values == again + 1 || own.eq(between.iter().copied());
+        let mut own = own.filter(|line| !is_names(line)).peekable();
+        segment.is_alike = own.peek().is_none() || own.eq(between.iter().copied());
         segment.before = before + values;
         segment.place.names = before + again + 1;
         first = values;

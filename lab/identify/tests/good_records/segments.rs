@@ -56,6 +56,8 @@ fn names_that_come_again_while_the_time_goes_on_leave_one_record() {
     for text in [
         blocks(HEADS[0], 400).replace("\n\n", "\n"),
         blocks(HEADS[0], 400).replace(',', " "),
+        blocks(HEADS[0], 400).replace("t,x,f\n", "t,x,f\nt,x,f\n"),
+        blocks(HEADS[0], 400) + &"t,x,f\n".repeat(100_000),
         blocks(HEADS[0], 400).replacen("f\n", "f\ns,mm,N\n", 1),
     ] {
         assert_eq!(accepted(&text).time, plain.time, "{text:.30}");
