@@ -5,7 +5,7 @@ use super::header::Header;
 use super::layout::passed_over;
 use super::roles::Roles;
 use super::source::{Row, Source};
-use super::sparse::{self, Lacking, Mended};
+use super::sparse::{self, Lacking};
 use super::time::{Clock, Stamp};
 use super::{Options, MIN_SAMPLES};
 
@@ -86,6 +86,9 @@ struct Reader<'a> {
     /// Rows that were kept so far.
     kept: usize,
     lacking: Lacking,
+    /// The refusal of the first stamp before an earlier one, which input and output may have if each
+    /// has stamps of its own.
+    backwards: Option<RecordError>,
     /// Rows of several lines.
     carried: usize,
     /// Lines of comments among the rows.
@@ -110,6 +113,7 @@ impl<'a> Reader<'a> {
             short: None,
             kept: 0,
             lacking: Lacking::default(),
+            backwards: None,
             carried: 0,
             comments: Vec::new(),
             cells: 0,
@@ -170,6 +174,18 @@ impl<'a> Reader<'a> {
             Stamp::Cut => return Ok(Sample::Cut),
             Stamp::Repeats(t) => {
                 self.lacking.repeats.push(self.kept);
+                t
+            }
+            Stamp::Backwards(t, error) => {
+                let mut ends = self.series.iter().take(2);
+                let name = |index: usize| &self.header.columns[index].name;
+                if ends.all(|(index, _)| row.number(*index, name(*index)).is_ok()) {
+                    return Err(error);
+                }
+                self.backwards.get_or_insert(error);
+                if !clock.is_kept(t) {
+                    return Ok(Sample::Cut);
+                }
                 t
             }
         };
@@ -294,6 +310,24 @@ impl Kept {
         })
     }
 
+    /// The rows in which the column of an end has a number.
+    fn readings(&self, end: usize) -> Vec<usize> {
+        let values = self.values[end].iter().enumerate();
+        let numbers = values.filter(|(_, value)| !value.is_nan());
+        numbers.map(|(row, _)| row).collect()
+    }
+
+    /// Puts the rows in the order of their stamps.
+    fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.time.len()).collect();
+        order.sort_by(|a, b| self.time[*a].total_cmp(&self.time[*b]));
+        let sorted = |own: &[f64]| -> Vec<f64> { order.iter().map(|row| own[*row]).collect() };
+        for own in self.values.iter_mut().chain([&mut self.time]) {
+            *own = sorted(own);
+        }
+        self.lines = order.iter().map(|row| self.lines[*row]).collect();
+    }
+
     /// Takes out these rows, which are in ascending order.
     fn leave_out(&mut self, rows: impl Iterator<Item = usize>) {
         let mut out = rows.peekable();
@@ -311,8 +345,12 @@ impl Kept {
 
     /// Leaves the rows with a reading of the end that has fewer of them, within the span of both;
     /// what is to be said of it.
-    fn on_one_grid(&mut self, lacking: &Mended, header: &Header, roles: &Roles) -> String {
-        let [input, output] = &lacking.readings;
+    fn on_one_grid(
+        &mut self,
+        [input, output]: &[Vec<usize>; 2],
+        header: &Header,
+        roles: &Roles,
+    ) -> String {
         let is_input = input.len() < output.len();
         let (grid, other) = match is_input {
             true => (input, output),
@@ -383,9 +421,17 @@ pub(super) fn read(
     let lacking = reader
         .lacking
         .mended(all, has_own_stamps, options.drop_bad)?;
-    clock.finish(header, lacking.is_apart && has_own_stamps)?;
+    let is_apart = lacking.is_apart && has_own_stamps;
+    if let Some(error) = reader.backwards.take() {
+        if !is_apart {
+            return Err(error);
+        }
+        kept.sort();
+    }
+    clock.finish(header, is_apart)?;
     lacking.out.iter().for_each(|(_, bad)| dropped.count(*bad));
     kept.leave_out(lacking.out.iter().map(|(row, _)| *row));
+    let readings = [0, 1].map(|end| kept.readings(end));
     let mut filled = sparse::fill(
         &lacking.filled,
         &mut kept.values,
@@ -395,18 +441,14 @@ pub(super) fn read(
         options,
     )?;
     if lacking.is_apart {
-        filled.push(kept.on_one_grid(&lacking, header, roles));
+        filled.push(kept.on_one_grid(&readings, header, roles));
     }
     let Kept {
         mut time,
         values,
         lines,
     } = kept;
-    let why = match (dropped.all() > 0, lacking.is_apart) {
-        (true, _) => "after cutting and --drop-bad",
-        (false, true) => "at the stamps of the column with the fewest numbers",
-        (false, false) => "after cutting",
-    };
+    let why = why_left(dropped.all(), lacking.is_apart);
     long_enough(time.len(), &clock, why, rows.line())?;
     clock.check_unit(header, &time)?;
     let mut notes: Vec<String> = rows.note().into_iter().collect();
@@ -431,6 +473,15 @@ pub(super) fn read(
 fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
     let unit = header.columns[roles.time?].unit.as_deref()?;
     (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))
+}
+
+/// Why so few rows may be left.
+fn why_left(dropped: usize, is_apart: bool) -> &'static str {
+    match (dropped, is_apart) {
+        (0, true) => "at the stamps of the column with the fewest numbers",
+        (0, false) => "after cutting",
+        _ => "after cutting and --drop-bad",
+    }
 }
 
 fn long_enough(left: usize, clock: &Clock, why: &str, line: usize) -> Result<(), RecordError> {

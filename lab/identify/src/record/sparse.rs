@@ -30,8 +30,6 @@ pub(super) struct Mended {
     pub(super) filled: Vec<usize>,
     /// Whether input and output have stamps of their own.
     pub(super) is_apart: bool,
-    /// Their rows with a number, where they have.
-    pub(super) readings: [Vec<usize>; 2],
 }
 
 impl Lacking {
@@ -60,24 +58,23 @@ impl Lacking {
         (0..rows).filter(|row| has[*row]).collect()
     }
 
-    /// The readings of input and output, where most of either are in rows without the other, or
-    /// where one of them has a number in fewer than half of the rows.
-    /// `--drop-bad` leaves out the rows without such a number.
-    fn apart(&self, rows: usize, drop_bad: bool) -> Option<[Vec<usize>; 2]> {
+    /// Whether most readings of the input and of the output are in rows without the other, or one of
+    /// them has a number in fewer than half of the rows. `--drop-bad` leaves out the rows without
+    /// such a number.
+    fn is_apart(&self, rows: usize, drop_bad: bool) -> bool {
         if self.first.iter().all(|(column, _)| *column >= 2) {
-            return None;
+            return false;
         }
         let [input, output] = [0, 1].map(|column| self.readings(column, rows));
         let is_together = |row: &&usize| output.binary_search(row).is_ok();
         let together = input.iter().filter(is_together).count();
         let fewest = input.len().min(output.len());
-        let is_apart = 2 * together < fewest || !drop_bad && 2 * fewest < rows && together > 0;
-        is_apart.then_some([input, output])
+        2 * together < fewest || !drop_bad && 2 * fewest < rows && together > 0
     }
 
     /// The first cell that is no sparse channel's, in so many rows.
     pub(super) fn fault(&self, rows: usize) -> Option<RecordError> {
-        if self.apart(rows, false).is_some() {
+        if self.is_apart(rows, false) {
             return None;
         }
         let sparse = self.sparse(rows);
@@ -92,15 +89,13 @@ impl Lacking {
         has_own_stamps: bool,
         drop_bad: bool,
     ) -> Result<Mended, RecordError> {
-        let is_apart = has_own_stamps || !drop_bad;
-        if let Some(readings) = self.apart(rows, drop_bad).filter(|_| is_apart) {
+        if (has_own_stamps || !drop_bad) && self.is_apart(rows, drop_bad) {
             let mut filled: Vec<usize> = self.first.iter().map(|(k, _)| *k).collect();
             filled.sort_unstable();
             return Ok(Mended {
                 out: Vec::new(),
                 filled,
                 is_apart: true,
-                readings,
             });
         }
         if let Some(error) = self.fault(rows).filter(|_| !drop_bad) {
@@ -117,7 +112,6 @@ impl Lacking {
             out,
             filled,
             is_apart: false,
-            readings: Default::default(),
         })
     }
 }

@@ -33,6 +33,8 @@ pub(super) enum Stamp {
     Cut,
     /// The stamp of the row before \[s\], where such rows may be left out.
     Repeats(f64),
+    /// A stamp before that of an earlier row \[s\], and the refusal of it.
+    Backwards(f64, RecordError),
 }
 
 /// A median step without a unit from which on milliseconds are suspected \[s\]: two
@@ -151,12 +153,14 @@ impl Clock {
                 if t < self.last {
                     let last = first + self.last;
                     if let Some(place) = row.opens() {
-                        return Err(segments::restarts(place, last, stamp).on(name));
+                        let error = segments::restarts(place, last, stamp).on(name);
+                        return Ok(Stamp::Backwards(t, error));
                     }
                     let cell = row.text(index).filter(|_| self.of_day);
                     let restart = cell.map_or("", clock_time::restart);
                     let message = format!("time runs backwards, from {last} to {stamp} s{restart}");
-                    return Err(RecordError::at(line, message).on(name));
+                    let error = RecordError::at(line, message).on(name);
+                    return Ok(Stamp::Backwards(t, error));
                 }
                 if !fresh && t <= self.last {
                     if self.drop_bad && self.is_kept(t) {
@@ -177,8 +181,10 @@ impl Clock {
         Ok(Stamp::Cut)
     }
 
-    fn is_kept(&self, t: f64) -> bool {
-        t >= self.skip && t <= self.until
+    /// Whether a time \[s\] is within the cuts.
+    pub(super) fn is_kept(&self, t: f64) -> bool {
+        // Only a column with stamps of its own begins before the first row.
+        (t >= self.skip || self.skip <= 0.0) && t <= self.until
     }
 
     /// Rows seen, those that were cut included.

@@ -71,6 +71,48 @@ fn each_column_is_read_at_its_own_stamps() {
 }
 
 #[test]
+fn the_rows_of_such_columns_may_be_in_any_order() {
+    let sorted = merged(10, 3, 10);
+    let (names, rows) = sorted.split_once('\n').unwrap();
+    let rows: Vec<&str> = rows.lines().collect();
+    // One topic below the other, and each row of the one before that of the other.
+    let empty = |index: usize| move |row: &&&str| row.split(',').nth(index) == Some("");
+    let (first, second): (Vec<&str>, Vec<&str>) = rows.iter().partition(|row| empty(2)(row));
+    let below = [first, second].concat();
+    let mut swapped = rows.clone();
+    swapped.chunks_exact_mut(2).for_each(<[&str]>::reverse);
+    for drop_bad in [false, true] {
+        let plain = read(&sorted, drop_bad);
+        for rows in [&below, &swapped] {
+            let record = read(&format!("{names}\n{}\n", rows.join("\n")), drop_bad);
+            assert_eq!(record.samples(), plain.samples());
+            let columns = |own: &Record| {
+                let temperature = own.channel("temperature").unwrap().values.clone();
+                [
+                    own.time.clone(),
+                    own.input.values.clone(),
+                    own.output.values.clone(),
+                    temperature,
+                ]
+                .concat()
+            };
+            let apart = columns(&record).into_iter().zip(columns(&plain));
+            let apart = apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // The stamps count from another first row, with other roundings.
+            assert!(apart < 1e-9, "{apart}");
+        }
+    }
+    // A column whose own stamps run backwards is refused.
+    let mut spoilt = rows.clone();
+    spoilt.swap(40, 44);
+    let text = format!("{names}\n{}\n", spoilt.join("\n"));
+    let line = parse(text.as_bytes(), "r.csv", &Options::default())
+        .unwrap_err()
+        .to_string();
+    assert!(line.contains("time runs backwards"), "{line}");
+}
+
+#[test]
 fn an_end_with_a_number_in_few_rows_is_read_at_its_stamps() {
     let row = |k: i32| {
         let t = f64::from(k) * 1e-3;
