@@ -472,6 +472,36 @@ proptest! {
     }
 
     #[test]
+    fn no_gaps_make_the_reader_panic(
+        cells in proptest::collection::vec(
+            (0..700_i32, any::<Option<i8>>(), any::<Option<i8>>(), 0..12_u8), 300..700),
+        order in 0..3_usize,
+        drop_bad in any::<bool>(),
+        skip in -1.0..2.0_f64,
+    ) {
+        let mut cells = cells;
+        match order {
+            0 => cells.sort_by_key(|(t, ..)| *t),
+            1 => cells.sort_by_key(|(t, x, ..)| (x.is_none(), *t)),
+            _ => {}
+        }
+        let cell = |own: Option<i8>| own.map_or_else(String::new, |own| own.to_string());
+        let row = |(t, x, f, kind): (i32, Option<i8>, Option<i8>, u8)| match kind {
+            0 => "t,x,f".to_owned(),
+            1 => format!("# {t}"),
+            2 => format!("{t},{},{}", cell(x), cell(f)),
+            _ if x.is_some() => format!("{t},{},", cell(x)),
+            _ => format!("{t},,{}", cell(f)),
+        };
+        let rows: Vec<String> = cells.into_iter().map(row).collect();
+        let skip = skip.max(0.0);
+        let options = Options { drop_bad, skip, ..Options::default() };
+        holds(csv("t,x,f", &rows).as_bytes(), &options);
+        let options = Options { segment: Some(1), ..options };
+        holds(csv("t,x,f", &rows).as_bytes(), &options);
+    }
+
+    #[test]
     fn no_numbers_make_the_reader_panic(
         values in proptest::collection::vec((any::<f64>(), any::<f64>(), any::<f64>()), 200..210),
         rate in any::<f64>(),
