@@ -126,15 +126,20 @@ const OTHERS: [&str; 10] = [
     "tau", "torque", "moment", "force", "f", "phi", "theta", "angle", "alpha", "omega",
 ];
 
-/// Endings that are words as well as units: an input, an amplitude.
-const WORDS: [&str; 2] = ["in", "amp"];
+/// Endings that are words as well as units: an input, an amplitude, a foot, a lever.
+const WORDS: [&str; 6] = ["in", "amp", "foot", "turn", "rad", "bar"];
 
-/// Splits the ending such as `_mm` or `_inches` off a name, with the unit that it means.
+/// Splits the ending such as `_mm`, `_inches` or ` deg` off a name, with the unit that it means.
 pub(super) fn ending(name: &str) -> Option<(&str, String)> {
     // `velocity_mm_per_s` ends in a denominator, which is not its unit.
     let (stem, ending) = name
-        .rsplit_once('_')
-        .filter(|(stem, _)| !stem.ends_with("_per"))?;
+        .rsplit_once(['_', ' '])
+        .filter(|(stem, _)| !stem.ends_with("_per") && !stem.ends_with(" per"))?;
+    let is_blank = name[stem.len()..].starts_with(' ');
+    // `Channel A` and `left foot` are names.
+    if is_blank && (ending.chars().count() < 2 || is_any(&WORDS, ending)) {
+        return None;
+    }
     let lower = stem.to_lowercase();
     let is_of = |names: &[&str]| names.iter().any(|name| lower.contains(name));
     let is_axis = ["x", "y", "z", "d", "u"].contains(&lower.as_str());
@@ -370,11 +375,17 @@ mod tests {
         assert_eq!(unit("F_KN").as_deref(), Some("kN"));
         assert_eq!(unit("x_inches").as_deref(), Some("in"));
         assert_eq!(unit("phi_p_degrees").as_deref(), Some("degrees"));
+        assert_eq!(unit("motor angle deg").as_deref(), Some("deg"));
+        assert_eq!(unit("Force KN").as_deref(), Some("kN"));
         assert_eq!(unit("load_Newtons").as_deref(), Some("N"));
         assert_eq!(unit("time_seconds").as_deref(), Some("s"));
         assert_eq!(unit("encoder_counts").as_deref(), Some("counts"));
         assert_eq!(unit("Kraft (Newtons)").as_deref(), Some("N"));
         for plain in [
+            "Channel A",
+            "left foot",
+            "motor angle",
+            "speed mm per s",
             "tau_MV",
             "tau_NM",
             "x_sec",

@@ -35,6 +35,7 @@ fn units_are_known_in_any_case_and_spelt_out() {
         ("t [Sec],x [MM],f [Newtons]", "mm", "N"),
         ("time_sec,x_inches,f_KN", "in", "kN"),
         ("t,x / mm,f / Kilonewton", "mm", "kN"),
+        ("Time Sec,x inches,f lbs", "in", "lbf"),
         ("t,x (mm/mm),f (lbs)", "mm/mm", "lbf"),
     ] {
         let record = accepted(csv(header, &rows()));
