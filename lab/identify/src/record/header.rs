@@ -165,7 +165,7 @@ impl Header {
 }
 
 /// A cell without the mark of a comment before it.
-fn without_mark(cell: &str) -> &str {
+pub(super) fn without_mark(cell: &str) -> &str {
     cell.trim_start_matches(['#', '%']).trim_start()
 }
 

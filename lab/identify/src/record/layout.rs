@@ -88,15 +88,15 @@ fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
     let mut start = 0;
     for (index, line) in rest.split_inclusive('\n').enumerate() {
         start += line.len();
-        if is_comment(line) {
-            continue;
-        }
         let line_of_units = before + index + 1;
         if let Some(said) = units_row(&mut table, &cells(line, separator), line_of_units)? {
             table.notes.extend(said);
             table.rows = Rows::separated_by(separator, &rest[start..]).after(line_of_units);
+            break;
         }
-        break;
+        if !is_comment(line) {
+            break;
+        }
     }
     Ok(table)
 }
@@ -116,6 +116,11 @@ fn units_row(
     line: usize,
 ) -> Result<Option<Vec<String>>, RecordError> {
     let Table { header, roles, .. } = table;
+    // `#s,mm,N` below `#t,x,f`.
+    let mut cells = cells.to_vec();
+    if let Some(first) = cells.first_mut() {
+        *first = header::without_mark(first);
+    }
     let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
     let is_number = |cell: &&str| cell.parse::<f64>().is_ok() && *cell != "1";
     if cells.iter().any(is_number) {
@@ -158,7 +163,7 @@ fn units_row(
         return Ok(None);
     }
     let mut said = vec![format!("units from line {line}")];
-    for (index, (column, cell)) in header.columns.iter_mut().zip(cells).enumerate() {
+    for (index, (column, cell)) in header.columns.iter_mut().zip(&cells).enumerate() {
         let is_strange = strange.contains(&index);
         if column.is_given {
             continue;

@@ -41,6 +41,16 @@ fn units_are_known_in_any_case_and_spelt_out() {
         let record = accepted(csv(header, &rows()));
         assert_eq!(units(&record), (Some(input), Some(output)), "{header}");
     }
+    for head in [
+        "#t,x,f\n#s,mm,kN",
+        "# Rig 4\n# t,x,f\n# s,mm,kN",
+        "%t,x,f\n% made by hand\n%s,mm,kN",
+    ] {
+        let record = accepted(csv(head, &rows()));
+        assert_eq!(units(&record), (Some("mm"), Some("kN")), "{head}");
+    }
+    let record = accepted(csv("#t,x,f\n#ms,mm,N", &rows()));
+    assert!((record.time[399] - 0.003_99).abs() < 1e-12);
     // A unit of time that is spelt out is converted as its sign is.
     let record = accepted(format!("t,x,f\nMilliseconds,mm,N\n{}\n", rows().join("\n")));
     assert!((record.time[399] - 0.003_99).abs() < 1e-12);
