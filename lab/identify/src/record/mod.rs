@@ -36,6 +36,7 @@ mod gzip;
 mod header;
 mod held;
 mod json;
+mod kept;
 mod kind;
 mod layout;
 mod mat;
