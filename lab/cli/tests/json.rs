@@ -232,6 +232,16 @@ fn all_in(folder: &Path) -> Vec<(&'static str, Value)> {
     ];
     said(&plant);
     said(&["identify", &straight, "--model-out", &model]);
+    // Two effects, of which one may be named: which drag it is remains open.
+    let both = path("both.csv");
+    let drag = [
+        "generate",
+        "--mode",
+        "displacement",
+        "--effect",
+        "drag-quadratic:6",
+    ];
+    said(&[&drag[..], &["--effect", "bump-position:5", "--out", &both]].concat());
     let shaky = path("shaky.csv");
     said(&["generate", "--mode", "torque", "--out", &shaky]);
     shake(Path::new(&shaky));
@@ -267,6 +277,7 @@ fn all_in(folder: &Path) -> Vec<(&'static str, Value)> {
         close(&[&stuck]),
         close(&[&bump]),
         close(&[&hidden]),
+        close(&[&both, "--max-terms", "1"]),
         close(&[&shaky]),
         checked(&later),
         checked(&bent),

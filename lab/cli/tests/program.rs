@@ -131,6 +131,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "alternatives",
             "curve",
             "members",
+            "described_by",
         ],
     ),
     ("/complete", &["floors", "at_floor"]),
