@@ -1,6 +1,6 @@
 //! Units below the names or in brackets: their spellings, and what is no unit.
 
-use super::{accepted, csv, refused, rows};
+use super::{accepted, csv, refusal, refused, rows, with_time};
 use bowden_lab::record::{agree, parse, Options, Record};
 
 fn with_row(above: &str, units: &str) -> String {
@@ -104,4 +104,36 @@ fn spellings_of_one_unit_are_one_and_newton_millimetres_convert() {
         line.contains("has unit wide; it must have unit N·m"),
         "{line}"
     );
+}
+
+#[test]
+fn the_unit_of_time_is_converted() {
+    let record = accepted(with_time("t [ms],x,f", |i| format!("{}", 10 * i)));
+    assert!((record.time[399] - 3.99).abs() < 1e-12);
+    assert_eq!(record.notes, ["time converted from ms to s"]);
+    refused(
+        csv("t [V],x,f", &rows()),
+        "r.csv:1: column `t`: unit `V` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time 't [ms]'",
+    );
+}
+
+#[test]
+fn days_without_a_unit_are_not_taken_for_seconds() {
+    let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
+    refused(
+        with_time("t,x,f", day),
+        "r.csv:1: column `t`: no unit is stated; if it is s, there are 8.640e7 rows per second: set --time 't [d]' for days, 't [h]' for hours, or 't [s]'",
+    );
+    let record = accepted(with_time("t [d],x,f", day));
+    // A day's twelfth digit is a tenth of a microsecond.
+    assert!((record.time[399] - 0.399).abs() < 1e-6);
+}
+
+#[test]
+fn whole_seconds_give_the_rate_between_them() {
+    let error = refusal(
+        with_time("t,x,f", |i| (i / 40).to_string()),
+        &Options::default(),
+    );
+    assert!(error.contains("(about 40.0 Hz)"), "{error}");
 }
