@@ -3,7 +3,8 @@
 use crate::effect::motion;
 use crate::transmission::transmission;
 use crate::{any, never_panics};
-use bowden::effect::{Backlash, Coulomb, Effect, Lag, Motion, PlayInSeries, Ripple, Stribeck};
+use bowden::effect::{Backlash, Coulomb, Effect, Lag, Motion, PlayInSeries};
+use bowden::effect::{Quantity, Ripple, Stribeck};
 use bowden::model::{FixedModel, Model, ModelState, Sample, Source, Term};
 use bowden::Real;
 use std::hint::black_box;
@@ -54,6 +55,9 @@ pub fn all<T: Real>() -> Option<()> {
         })
     });
     fixed(&sample)?;
+    let points: [(T, T); 3] = black_box([(any(), any()), (any(), any()), (any(), any())]);
+    let over = black_box(Quantity::Velocity);
+    never_panics!(model_curve_curve, Term::curve(over, Source::Input, points));
     never_panics!(model_state_eta, state.eta());
     never_panics!(model_state_time, state.time());
     never_panics!(model_state_output, state.output());
