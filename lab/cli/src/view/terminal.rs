@@ -104,7 +104,7 @@ fn answer(facts: &Facts, width: Width) -> String {
         .filter(|lack| !lack.described_by.is_empty())
     {
         let sets: Vec<String> = lack.described_by.iter().map(DescribedBy::words).collect();
-        let words = format!("{}: as well by {}", lack.title, sets.join(", by "));
+        let words = format!("{}: also described by {}", lack.title, sets.join(" or "));
         prose(&mut out, width, &words);
     }
     prose(&mut out, width, unsaid(facts));

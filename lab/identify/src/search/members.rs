@@ -14,13 +14,6 @@ use crate::model::catalogue::Candidate;
 use crate::model::mechanism::Mechanism;
 use rayon::prelude::*;
 
-/// Groups of one set, and what it leaves, with its price.
-#[derive(Clone)]
-struct Set {
-    added: Vec<usize>,
-    j: f64,
-}
-
 impl Search<'_> {
     /// What describes each mechanism of the final model about as well; nothing if the model is
     /// complete, whose terms have alternatives of their own.
@@ -94,34 +87,29 @@ impl Linear<'_> {
         let own: Vec<usize> = (0..self.groups.len())
             .filter(|&g| is_own(&self.groups[g]))
             .collect();
-        let mut all: Vec<Set> = Vec::new();
-        let mut longest = vec![Set {
+        let mut all: Vec<Move> = Vec::new();
+        let mut longest = vec![Move {
+            kept,
             added: Vec::new(),
-            j: f64::INFINITY,
+            promise: f64::INFINITY,
+            p: Vec::new(),
         }];
         for _ in 0..most {
-            let longer = longest.par_iter();
-            let longer = longer.flat_map(|set| self.grown(&kept, set, &own));
+            let longer = longest.par_iter().flat_map(|set| self.grown(set, &own));
             longest = self.best(longer.collect());
             all.extend(longest.iter().cloned());
         }
-        all.retain(|set| !is_same(&self.identities(&kept, &set.added), &present));
-        let made = self.best(all).into_iter().map(|set| Move {
-            kept: kept.clone(),
-            added: set.added,
-            promise: set.j,
-            p: Vec::new(),
-        });
-        made.collect()
+        all.retain(|set| !is_same(&self.identities(&set.kept, &set.added), &present));
+        self.best(all)
     }
 
     /// A set with each one of the groups in addition.
-    fn grown(&self, kept: &Kept, set: &Set, own: &[usize]) -> Vec<Set> {
-        let mut swept = self.without(kept);
+    fn grown(&self, set: &Move, own: &[usize]) -> Vec<Move> {
+        let mut swept = self.without(&set.kept);
         set.added
             .iter()
             .for_each(|&g| swept.sweep(&self.groups[g].columns));
-        let (target, unit) = self.target_of(kept);
+        let (target, unit) = self.target_of(&set.kept);
         let sse = swept.at(target, target);
         let is_new = |g: &&usize| {
             let is_like = |a: &usize| self.groups[*a].is_like(&self.groups[**g]);
@@ -131,22 +119,24 @@ impl Linear<'_> {
             let added = [&set.added[..], &[g]].concat();
             let left = sse - swept.gain(&self.groups[g].columns, target);
             let parameters: usize = added.iter().map(|&a| self.groups[a].freedoms).sum();
-            Set {
+            let promise = (unit * left.max(1e-14 * sse)).ln() + policy::LEAST * parameters as f64;
+            Move {
                 added,
-                j: (unit * left.max(1e-14 * sse)).ln() + policy::LEAST * parameters as f64,
+                promise,
+                ..set.clone()
             }
         };
         own.iter().filter(is_new).map(with).collect()
     }
 
     /// The best few of some sets, each at its best shapes.
-    fn best(&self, mut sets: Vec<Set>) -> Vec<Set> {
-        sets.sort_by(|a, b| a.j.total_cmp(&b.j));
-        let names = |set: &Set| -> Vec<_> {
+    fn best(&self, mut sets: Vec<Move>) -> Vec<Move> {
+        sets.sort_by(|a, b| a.promise.total_cmp(&b.promise));
+        let names = |set: &Move| -> Vec<_> {
             let added = set.added.iter();
             added.map(|&g| self.groups[g].identity()).collect()
         };
-        let mut best: Vec<Set> = Vec::new();
+        let mut best: Vec<Move> = Vec::new();
         for set in sets {
             if best.len() == policy::REFITTED {
                 break;

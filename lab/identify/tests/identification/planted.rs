@@ -309,7 +309,7 @@ fn no_family_but_offset_and_gain_is_left_out_by_the_exceptions() {
         Family::Gain,
         // Declared, not searched: `hardening` has its own tests.
         Family::Hardening,
-        // What a search finds of a curve is a `Table`; as effects its segments only leave it.
+        // A search fits a curve as a `Table`; only an exported model has its segments as effects.
         Family::Curve,
     ];
     for family in Family::ALL.iter().filter(|f| !exempt.contains(f)) {
