@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod expected;
+#[path = "../shared/rows.rs"]
+mod fine;
 mod forms;
 mod json;
 mod plain;
@@ -11,25 +13,9 @@ mod sparse;
 mod units;
 
 use bowden_lab::record::{parse, read, Mode, Options, Record};
+use fine::{csv, rows, with_line};
 use proptest::prelude::*;
 use std::fmt::Write as _;
-
-/// A record that is fine: 400 samples at 100 Hz in three columns.
-fn rows() -> Vec<String> {
-    let row = |i: i32| {
-        let t = f64::from(i) * 0.01;
-        format!(
-            "{t:.2},{:.6},{:.6}",
-            10.0 * (3.0 * t).sin(),
-            25.0 * (3.0 * t + 0.2).sin()
-        )
-    };
-    (0..400).map(row).collect()
-}
-
-fn csv(header: &str, rows: &[String]) -> String {
-    format!("{header}\n{}\n", rows.join("\n"))
-}
 
 /// The record with another first column.
 fn with_time(header: &str, time: impl Fn(usize) -> String) -> String {
@@ -39,13 +25,6 @@ fn with_time(header: &str, time: impl Fn(usize) -> String) -> String {
         header,
         &rows().iter().enumerate().map(row).collect::<Vec<_>>(),
     )
-}
-
-/// The record with one line (numbered as an editor does) replaced.
-fn with_line(line: usize, text: &str) -> String {
-    let mut rows = rows();
-    rows[line - 2] = text.to_owned();
-    csv("t,x,f", &rows)
 }
 
 /// The record with two columns computed from the time.

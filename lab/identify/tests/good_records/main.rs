@@ -1,6 +1,8 @@
 //! Good records are read: in every spelling, cut, held, quantised, and measured by others.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../shared/rows.rs"]
+mod fine;
 mod json;
 mod names;
 mod npz;
@@ -13,32 +15,9 @@ mod times;
 mod units;
 
 use bowden_lab::record::{of_columns, parse, read, Column, Mode, Options, Record};
+use fine::{csv, rows, with_line};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-
-/// A record that is fine: 400 samples at 100 Hz in three columns.
-fn rows() -> Vec<String> {
-    let row = |i: i32| {
-        let t = f64::from(i) * 0.01;
-        format!(
-            "{t:.2},{:.6},{:.6}",
-            10.0 * (3.0 * t).sin(),
-            25.0 * (3.0 * t + 0.2).sin()
-        )
-    };
-    (0..400).map(row).collect()
-}
-
-fn csv(header: &str, rows: &[String]) -> String {
-    format!("{header}\n{}\n", rows.join("\n"))
-}
-
-/// The record with one line (numbered as an editor does) replaced.
-fn with_line(line: usize, text: &str) -> String {
-    let mut rows = rows();
-    rows[line - 2] = text.to_owned();
-    csv("t,x,f", &rows)
-}
 
 /// The record with two columns computed from the time.
 fn of(input: impl Fn(f64) -> f64, output: impl Fn(f64) -> f64) -> String {
