@@ -1,18 +1,19 @@
-//! `bowden plan`: the experiment that would tell what this record cannot.
+//! `bowden plan`: the experiment that would tell what these records cannot.
 
 use super::progress::{progress, telling};
-use super::reading::{file, Reading};
+use super::reading::{files, Reading};
 use super::{outputs, Failure};
 use crate::view::{plan_text, Width};
 use bowden_lab::facts::plan;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Plan {
-    /// A record: CSV, JSON, .mat (v5, v7.3), Parquet or .npz.
-    record: PathBuf,
+    /// One or several records of one rig: CSV, JSON, .mat (v5, v7.3), Parquet or .npz.
+    #[arg(required = true, value_name = "RECORD")]
+    records: Vec<PathBuf>,
     #[command(flatten)]
     reading: Reading,
     /// File for the trajectory [default: stdout]. If there is no trajectory, the exit status is 1
@@ -27,16 +28,18 @@ const NOTHING_TO_WRITE: u8 = 1;
 impl Plan {
     pub fn run(self) -> Result<ExitCode, Failure> {
         let asked = self.reading.asked()?;
-        let path = file(&self.record)?;
+        let paths = files(&self.records)?.paths;
         if let Some(out) = &self.out {
-            outputs::check(&[&path], &[("--out", out)])?;
+            let read: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
+            outputs::check(&read, &[("--out", out)])?;
         }
         let bar = progress();
         bar.set_message("reading");
-        let record = asked.read(&path)?;
-        let found = plan(&record, &asked, &telling(&bar))?;
+        let records = asked.read_together(&paths)?;
+        let found = plan(&records, &asked, &telling(&bar))?;
         bar.finish_and_clear();
-        let report = plan_text(&record.path, &found, Width::of_stderr());
+        let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
+        let report = plan_text(&label.join(" "), &found, Width::of_stderr());
         anstream::eprintln!("{}", report.trim_end());
         let Some(planned) = &found.planned else {
             return Ok(match &self.out {

@@ -64,6 +64,26 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
     assert!(String::from_utf8(output.stderr)
         .unwrap()
         .contains("stiffness-cubic from dead-zone"));
+    // Of two files the one whose motion is changed is named.
+    let other = made(
+        &folder,
+        "d.csv",
+        &[
+            "--seed",
+            "1",
+            "--effect",
+            "stiffness-cubic:0.6",
+            "--seconds",
+            "10",
+        ],
+    );
+    let joint = bowden(&["plan", &path, &other]);
+    assert!(joint.status.success(), "{joint:?}");
+    let words = String::from_utf8(joint.stderr).unwrap();
+    assert!(
+        words.contains("c.csv)") || words.contains("d.csv)"),
+        "{words}"
+    );
     let out = folder.path().join("plan.csv").display().to_string();
     assert!(bowden_on("1", &["plan", &path, "--out", &out])
         .status

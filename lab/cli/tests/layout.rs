@@ -202,7 +202,7 @@ fn the_text_of_plan_is_the_golden_one() {
         .unwrap();
     let asked = Asked::default();
     let record = asked.read_text(&made.stdout, "record.csv").unwrap();
-    let planned = plan(&record, &asked, &|_| ()).unwrap();
+    let planned = plan(&[record], &asked, &|_| ()).unwrap();
     golden("plan", |width| plan_text("record.csv", &planned, width));
     let none = Plan {
         planned: None,

@@ -24,6 +24,12 @@ pub struct Asked {
     pub budget: Option<f64>,
 }
 
+/// The names of some records.
+pub(super) fn label(records: &[Record]) -> String {
+    let all: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
+    all.join(", ")
+}
+
 impl Asked {
     /// Reads one record.
     ///
@@ -116,30 +122,44 @@ impl Asked {
         Ok((data, structure))
     }
 
-    /// As [`prepare`](Self::prepare), of a record that shows a motion.
-    pub(super) fn prepare_moving(&self, record: &Record) -> Result<(Prepared, Structure), String> {
-        let (data, structure) = self.prepare(record)?;
+    /// As [`prepare_all`](Self::prepare_all), of records that show a motion.
+    pub(super) fn prepare_moving(
+        &self,
+        records: &[Record],
+    ) -> Result<(Prepared, Structure), String> {
+        let (data, structure) = self.prepare_all(records, false)?;
+        let label = label(records);
         if data.is_shuffled() {
             return Err(format!(
-                "{}: neighbouring rows of `{}` have nothing in common, but the output follows it row by row: the rows must be in time order",
-                record.path, data.input.name
+                "{label}: neighbouring rows of `{}` have nothing in common, but the output follows it row by row: the rows must be in time order",
+                data.input.name
             ));
         }
         match data.is_at_rest() {
             true => Err(format!(
-                "{}: the input `{}` is at rest and shows only its sensor's noise: record a motion",
-                record.path, data.input.name
+                "{label}: the input `{}` is at rest and shows only its sensor's noise: record a motion",
+                data.input.name
             )),
             false => Ok((data, structure)),
         }
     }
 
-    /// Several records on common grids, and the baseline model.
-    pub(super) fn prepare_joined(
+    /// One record, or several on common grids, and the baseline model.
+    ///
+    /// A file with gains of its own says nothing about the gains of another, so that the end of
+    /// each file is held out then.
+    pub(super) fn prepare_all(
         &self,
         records: &[Record],
-        held_out: HeldOut,
+        own_gains: bool,
     ) -> Result<(Prepared, Structure), String> {
+        if let [one] = records {
+            return self.prepare(one);
+        }
+        let held_out = match !own_gains && records.len() > 2 {
+            true => HeldOut::LastRecord,
+            false => HeldOut::Trailing,
+        };
         let cutoff = self.cutoff;
         let data = Prepared::joined(records, Preparation { cutoff }, held_out)?;
         let structure = self.declared(&data)?;

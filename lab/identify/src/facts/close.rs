@@ -1,6 +1,6 @@
 //! The main question: which effect does the baseline model lack?
 
-use super::asked::Asked;
+use super::asked::{label, Asked};
 use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
@@ -15,8 +15,7 @@ use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector, ModelFile};
 use crate::fit::{fit, Segments, Solution};
 use crate::ledger::Ledger;
-use crate::model::structure::Structure;
-use crate::problem::{HeldOut, Prepared};
+use crate::problem::Prepared;
 use crate::record::Record;
 use crate::search::policy::AT_FLOOR;
 use std::cell::Cell;
@@ -117,13 +116,6 @@ impl Close {
         }
     }
 
-    fn prepare(&self, records: &[Record], asked: &Asked) -> Result<(Prepared, Structure), String> {
-        match records {
-            [one] => asked.prepare(one),
-            all => asked.prepare_joined(all, held_out(self, all.len())),
-        }
-    }
-
     /// The final model; what the signals are worth for it goes to the notes and the ledger.
     fn concluded(&self, records: &[Record], data: &mut Prepared, ledger: &mut Ledger) -> FinalFit {
         if ledger.integrates {
@@ -177,7 +169,8 @@ impl Close {
 
     /// Records on the grids of that cut-off.
     fn on_grids(&self, records: &[Record], cutoff: f64) -> Option<Prepared> {
-        let (data, _) = self.prepare(records, &self.asked.at(cutoff)).ok()?;
+        let asked = self.asked.at(cutoff);
+        let (data, _) = asked.prepare_all(records, self.own_gains).ok()?;
         Some(data)
     }
 }
@@ -191,9 +184,8 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     let asked = &question.asked;
     let mut meter = question.meter;
     meter.begins(Stage::Preparing);
-    let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
-    let label = label.join(", ");
-    let (mut data, mut structure) = question.prepare(records, asked)?;
+    let label = label(records);
+    let (mut data, mut structure) = asked.prepare_all(records, question.own_gains)?;
     if question.own_gains {
         if !structure.hysteresis {
             return Err(
@@ -268,15 +260,6 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
         figures,
         cost,
     })
-}
-
-/// A file with gains of its own says nothing about the gains of another, so that the end of
-/// each file is held out then.
-fn held_out(question: &Close, records: usize) -> HeldOut {
-    match !question.own_gains && records > 2 {
-        true => HeldOut::LastRecord,
-        false => HeldOut::Trailing,
-    }
 }
 
 fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {

@@ -1,6 +1,6 @@
 //! The motion to record next.
 
-use super::asked::Asked;
+use super::asked::{label, Asked};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::term_name;
 use crate::conclude::rivals::each_pair_once;
@@ -14,7 +14,7 @@ use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Record;
 
-/// What can be done about what a record leaves open.
+/// What can be done about what records leave open.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The experiment; `None` if none of the known motions would help.
@@ -43,23 +43,23 @@ pub struct Planned {
     pub csv: String,
 }
 
-/// Plans an experiment that answers what a record leaves open.
+/// Plans an experiment that answers what one or several records of one rig leave open.
 ///
 /// # Errors
-/// One line where the record cannot be closed, or has no model.
-pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan, String> {
-    let (data, structure) = asked.prepare_moving(record)?;
+/// One line where the records cannot be closed, or have no model.
+pub fn plan(records: &[Record], asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan, String> {
+    let (data, structure) = asked.prepare_moving(records)?;
+    let label = label(records);
     let ledger = asked
         .search(&data, &structure, tell)
-        .map_err(|message| format!("{}: {message}", record.path))?;
+        .map_err(|message| format!("{label}: {message}"))?;
     tell("planning");
     let done = FinalFit::new(&data, &ledger);
     let found = verdict(&data, &ledger, &done);
     let said = || sentence(&data, &ledger, &done);
     if found == Verdict::NoInputDependence {
         return Err(format!(
-            "{}: no motion can be planned without a model. {}",
-            record.path,
+            "{label}: no motion can be planned without a model. {}",
             said()
         ));
     }
@@ -79,7 +79,7 @@ pub fn plan(record: &Record, asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan,
     together.dedup();
     let planned = separated.or_else(|| strengthen(&done.data, &done.solution));
     let planned = planned.map(|experiment| Planned {
-        csv: trajectory(&data, experiment.kind).csv(),
+        csv: trajectory(&data, experiment.way).csv(),
         experiment,
         confounded,
     });

@@ -67,7 +67,7 @@ pub fn power(
     question: &Question,
     tell: &(dyn Fn(&str) + Sync),
 ) -> Result<PowerFacts, String> {
-    let (data, structure) = asked.prepare_moving(record)?;
+    let (data, structure) = asked.prepare_moving(std::slice::from_ref(record))?;
     let ledger = asked
         .search(&data, &structure, tell)
         .map_err(|message| format!("{}: {message}", record.path))?;

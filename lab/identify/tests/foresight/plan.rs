@@ -1,7 +1,7 @@
 //! A planned motion, run on a rig of its own making, settles what was confounded.
 
 use super::{closed, noise};
-use bowden_lab::foresight::plan::{separate, strengthen, trajectory, Kind};
+use bowden_lab::foresight::plan::{separate, strengthen, trajectory, Kind, Way};
 use bowden_lab::record::{parse, Options, Record};
 use bowden_synth::{generate, Base, Mode, Planted, Recipe, Synthetic};
 
@@ -96,7 +96,7 @@ fn the_planned_motion_tells_the_cubic_stiffness_from_the_dead_zone() {
         assert!(aim.left_then > 1.0, "{aim:?}");
         assert!((0.0..=1.0).contains(&aim.correlation_then), "{aim:?}");
     }
-    let csv = trajectory(&data, experiment.kind).csv();
+    let csv = trajectory(&data, experiment.way).csv();
     let truth = &made.truth;
     for seed in [11, 12] {
         let measured = rig(&csv, &truth.base, truth.effects[0].gain, seed);
@@ -123,8 +123,9 @@ fn an_experiment_that_separates_nothing_is_not_proposed() {
 fn every_motion_can_be_prepared_like_the_record_and_keeps_to_what_it_says() {
     let (_, record) = confounded();
     let (data, _) = closed(&record);
-    for kind in Kind::ALL {
-        let planned = trajectory(&data, kind);
+    for way in Way::all(&data) {
+        let kind = way.kind;
+        let planned = trajectory(&data, way);
         let motion = planned.prepared(&data).unwrap();
         let times = |a: f64, b: f64| a / b;
         let stroke = times(motion.input.reach, data.input.reach);

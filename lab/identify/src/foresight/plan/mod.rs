@@ -15,7 +15,7 @@ mod strengthen;
 mod trajectory;
 
 pub use strengthen::{strengthen, unidentified};
-pub use trajectory::{trajectory, Kind, Trajectory};
+pub use trajectory::{trajectory, Kind, Trajectory, Way};
 
 use crate::algebra::imitated;
 use crate::conclude::intervals::term_name;
@@ -32,6 +32,9 @@ use serde::Serialize;
 pub struct Experiment {
     /// How it moves.
     pub kind: Kind,
+    /// The same, with the record that it plays.
+    #[serde(skip)]
+    pub way: Way,
     /// In words, with its parameters.
     pub trajectory: String,
     /// Length \[s\].
@@ -136,10 +139,10 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
         return None;
     }
     let noise = round.after.fit.max(f64::MIN_POSITIVE);
-    let tried: Vec<Option<((usize, f64), Experiment)>> = Kind::ALL
-        .par_iter()
-        .map(|&kind| {
-            let planned = trajectory(data, kind);
+    let tried: Vec<Option<((usize, f64), Experiment)>> = Way::all(data)
+        .into_par_iter()
+        .map(|way| {
+            let planned = trajectory(data, way);
             let motion = planned.prepared(data)?;
             let placed = model.on(&motion)?;
             let mut worst = f64::INFINITY;
@@ -199,7 +202,8 @@ fn describe(
         speeds.fold(0.0, f64::max)
     };
     Experiment {
-        kind: planned.kind,
+        kind: planned.way.kind,
+        way: planned.way,
         trajectory: planned.words.clone(),
         seconds: planned.signals[0].values.len() as f64 * planned.step,
         speed: fastest(motion) / fastest(data).max(f64::MIN_POSITIVE),

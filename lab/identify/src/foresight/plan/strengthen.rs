@@ -1,7 +1,7 @@
 //! Where nothing is ambiguous: the motion under which unknown parameters would show.
 
 use super::model::{Model, Placed};
-use super::trajectory::{trajectory, Kind};
+use super::trajectory::{trajectory, Way};
 use super::{best, describe, Aim, Experiment};
 use crate::algebra::imitated;
 use crate::conclude::intervals::parameters;
@@ -83,10 +83,10 @@ pub fn strengthen(data: &Prepared, solution: &Solution) -> Option<Experiment> {
     if weak.is_empty() {
         return None;
     }
-    let tried = Kind::ALL
-        .par_iter()
-        .map(|&kind| {
-            let planned = trajectory(data, kind);
+    let tried = Way::all(data)
+        .into_par_iter()
+        .map(|way| {
+            let planned = trajectory(data, way);
             let motion = planned.prepared(data)?;
             let placed = model.on(&motion)?;
             let mut score = 0.0;

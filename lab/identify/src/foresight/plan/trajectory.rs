@@ -47,14 +47,33 @@ impl Kind {
     ];
 }
 
+/// A kind of motion, and the record that it is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Way {
+    /// Place of that record among those that were identified together.
+    pub record: usize,
+    /// How it moves.
+    pub kind: Kind,
+}
+
+impl Way {
+    /// Every kind of motion of every record; of equals the earlier one is taken.
+    #[must_use]
+    pub fn all(data: &Prepared) -> Vec<Self> {
+        let records = 0..data.pieces.len().max(1);
+        let of = |record| Kind::ALL.map(|kind| Self { record, kind });
+        records.flat_map(of).collect()
+    }
+}
+
 /// The longest hold and the shortest \[s\]: creep of seconds shows, a rig is not blocked.
 const HOLD: (f64, f64) = (0.5, 5.0);
 
 /// A planned motion: every signal of the record on a uniform time.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
-    /// How it moves.
-    pub kind: Kind,
+    /// How it moves, and what it is made of.
+    pub way: Way,
     /// In words, with its parameters.
     pub words: String,
     /// Step \[s\].
@@ -264,14 +283,11 @@ fn moves(index: usize, name: &str) -> bool {
     index == 0 || name.starts_with("phi") || name.starts_with("angle")
 }
 
-/// The trajectory of that kind for a record.
+/// The trajectory of a kind of motion, made of one of the records.
 #[must_use]
-pub fn trajectory(data: &Prepared, kind: Kind) -> Trajectory {
-    // Of several records the first one's motion is played.
-    let samples = data
-        .pieces
-        .first()
-        .map_or(0..data.work_len(), |p| p.work.clone());
+pub fn trajectory(data: &Prepared, way: Way) -> Trajectory {
+    let piece = data.pieces.get(way.record);
+    let samples = piece.map_or(0..data.work_len(), |p| p.work.clone());
     let position = |c: &crate::problem::Channel| {
         let motion = c.motion[samples.clone()].iter();
         motion.map(|m| m.position).collect()
@@ -285,10 +301,13 @@ pub fn trajectory(data: &Prepared, kind: Kind) -> Trajectory {
         stroke_time: data.input.reach / data.input.speed.max(1e-300),
         seconds: (samples.len() - 1) as f64 * data.dt,
     };
-    let (signals, words) = source.played(kind);
+    let (signals, mut words) = source.played(way.kind);
+    if let Some(piece) = piece.filter(|_| data.pieces.len() > 1) {
+        words += &format!(" ({})", piece.path);
+    }
     let channels = std::iter::once(&data.input).chain(&data.channels);
     Trajectory {
-        kind,
+        way,
         words,
         step: data.dt,
         signals: signals
