@@ -119,6 +119,7 @@ impl Comparison {
                 "text" => value.is_string(),
                 "number" => value.is_number(),
                 "true or false" => value.is_boolean(),
+                "object" => value.is_object(),
                 "exact" => value.as_str().is_some_and(is_exact),
                 _ => false,
             };

@@ -100,6 +100,7 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "explains",
             "integrates",
             "verdict",
+            "findings",
             "summary",
             "cost",
         ],

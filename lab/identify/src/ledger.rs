@@ -195,23 +195,6 @@ impl Ledger {
         self.stopped_by_request.is_some() || self.stopped_by_budget.is_some()
     }
 
-    /// A sentence on the limit that ended the search; `None` if it ended by itself.
-    #[must_use]
-    pub fn stopped_words(&self) -> Option<String> {
-        if let Some(seconds) = self.stopped_by_budget {
-            return Some(format!(
-                "The search stopped after {seconds} s, as requested: this is the best model so far, and further terms may be missing."
-            ));
-        }
-        Some(match self.stopped_by_request? {
-            0 => "There was no search for effects, as requested.".to_owned(),
-            1 => "The search stopped after one effect, as requested: further terms may be missing.".to_owned(),
-            most => format!(
-                "The search stopped after {most} effects, as requested: further terms may be missing."
-            ),
-        })
-    }
-
     /// The mechanisms of what was added, in the order of the rounds.
     #[must_use]
     pub fn mechanisms(&self, data: &Prepared) -> Vec<Mechanism> {
@@ -332,7 +315,7 @@ pub struct ChannelApart {
 }
 
 /// A channel of a coarse sensor, whose steps account for much of the residual.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct CoarseChannel {
     /// The channel.
     pub channel: String,

@@ -93,6 +93,12 @@ class DescribedBy(Fields):
     effects: list[str]
     error_ratio: float
 
+class Finding(Fields):
+    severity: str
+    words: str
+    code: str
+    evidence: Fields
+
 class LackAlone(Fields):
     mechanism: str
     channel: str

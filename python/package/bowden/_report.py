@@ -173,6 +173,7 @@ class Report(_Found):
         stopped_by_max_terms: Optional[int]
         stopped_by_time_limit: Optional[float]
         verdict: str
+        findings: list[parts.Finding]
         summary: str
         cost: parts.Cost
 

@@ -5,7 +5,7 @@ use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
     ChannelApart, Complete, CostFacts, Defect, Experiment, Explained, Facts, FileAlone, FileApart,
     FileErrors, FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter, RejectedFacts,
-    RivalFacts, RoundFacts, RoundModel, Segments, Unneeded, Worse,
+    RivalFacts, RoundFacts, RoundModel, Segments, Told, Unneeded, Worse,
 };
 use serde::Serialize;
 
@@ -53,6 +53,7 @@ struct Report<'a> {
     /// The requested time [s], if it ended the search.
     stopped_by_time_limit: Option<f64>,
     verdict: &'static str,
+    findings: &'a [Told],
     summary: &'a str,
     /// Absent if it was not measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -306,6 +307,7 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         stopped_by_max_terms: facts.stopped_by_request,
         stopped_by_time_limit: facts.stopped_by_budget,
         verdict: facts.verdict.name(),
+        findings: &facts.findings,
         summary: &facts.sentence,
         cost,
     })

@@ -1,7 +1,10 @@
 //! The generated pages of `docs/reference`: the commands and the glossary from what the program
-//! prints, the effects from the catalogue, the thresholds from their constants.
+//! prints, the effects from the catalogue, the thresholds from their constants, the findings from one
+//! example each.
 //! `BOWDEN_WRITE_PAGES=1 cargo test -p bowden-cli --test pages` writes them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod findings;
 
 use bowden::effect::{Dimension, CATALOGUE};
 use bowden_lab::model::mechanism::Mechanism;
@@ -44,7 +47,7 @@ fn check(name: &str, page: &str) {
     if std::env::var_os("BOWDEN_WRITE_PAGES").is_some() {
         std::fs::write(&path, page).unwrap();
     }
-    let kept = std::fs::read_to_string(&path).unwrap();
+    let kept = std::fs::read_to_string(&path).unwrap_or_default();
     assert_eq!(
         kept, page,
         "if this is meant: BOWDEN_WRITE_PAGES=1 cargo test -p bowden-cli --test pages"
@@ -73,6 +76,11 @@ fn the_page_of_the_commands_is_what_the_program_prints() {
         add(&format!("bowden {name}"), &[name]);
     }
     check("cli.md", &page);
+}
+
+#[test]
+fn the_page_of_the_findings_has_each_of_them() {
+    check("findings.md", &findings::page());
 }
 
 /// The unit of a regressor, in those of the record.
@@ -121,7 +129,7 @@ fn the_page_of_the_effects_is_the_catalogue() {
 }
 
 /// The constants of the search, with their documentation.
-const POLICY: &str = include_str!("../../identify/src/search/policy.rs");
+const POLICY: &str = include_str!("../../../identify/src/search/policy.rs");
 
 #[test]
 fn the_page_of_the_thresholds_is_their_constants() {

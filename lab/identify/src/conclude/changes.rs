@@ -2,14 +2,14 @@
 //! are apart.
 
 use super::errors::RISES;
-use super::files_apart::four_digits;
 use super::final_fit::FinalFit;
+use super::finding::Finding;
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
 use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
 use crate::record::{is_velocity, DefectKind, Mode};
-use crate::score::ranges::{beyond, range, Outside, POSITION};
+use crate::score::ranges::{beyond, range, POSITION};
 use crate::search::policy::AT_FLOOR;
 use bowden::effect::Family;
 use bowden::model::Source;
@@ -23,11 +23,11 @@ const BEFORE: f64 = 0.01;
 /// ... and is told if that is later than this share of the held-out part.
 const LATE: f64 = 0.05;
 
-/// What is to be said of a held-out part that goes beyond the positions of the fit segment, where the
-/// model errs more than there.
-pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Option<String> {
+/// Where the held-out part goes beyond the positions of the fit segment, and the model errs more than
+/// there.
+pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Vec<Finding> {
     if done.rmse.held_out <= f64::max(RISES * done.rmse.fit, AT_FLOOR * data.noise_floor) {
-        return None;
+        return Vec::new();
     }
     let split = &data.split;
     let channels = 0..data.channels.len();
@@ -41,18 +41,10 @@ pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Option<String> {
         let seen = range(data, channel, &split.fit, POSITION);
         beyond(data, channel, &split.held_out, POSITION, seen)
     };
-    let words = |one: Outside| {
-        let unit = one.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
-        let ends = |[low, high]: [f64; 2]| format!("{} to {}", four_digits(low), four_digits(high));
-        format!(
-            "The fit segment covers `{}` from {}{unit}, and the held-out segment covers it from {}{unit}: the held-out error is an extrapolation error.",
-            one.channel,
-            ends(one.seen),
-            ends(one.here)
-        )
-    };
-    let all: Vec<String> = sources.filter_map(outside).map(words).collect();
-    (!all.is_empty()).then(|| all.join(" "))
+    sources
+        .filter_map(outside)
+        .map(Finding::Extrapolation)
+        .collect()
 }
 
 /// The terms of a channel stand for the output where their sum has this share of its standard
@@ -89,9 +81,9 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
     (first as f64 > LATE * rows.len() as f64).then(|| data.moment(rows[first]))
 }
 
-/// What is to be said of a creep that starts at an end of what it may start from: what relaxes there
+/// A creep that starts at an end of what it may start from: what relaxes there
 /// is no motion of the input, and may be the sensor itself.
-pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<String> {
+pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Finding> {
     let terms = &solution.structure.terms;
     let ends = solution.free.iter().zip(&solution.on_bound);
     let mut starts = ends
@@ -101,11 +93,8 @@ pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Strin
             _ => None,
         });
     let creeps = starts.any(|term| term.effect.family() == Family::Creep);
-    creeps.then(|| {
-        format!(
-            "The creep starts outside the range of the input: is it a drift of `{}`, for example of a sensor that warms up? A record made after the rig has run for longer would show which of the two it is.",
-            data.output_name
-        )
+    creeps.then(|| Finding::CreepStartsOutside {
+        output: data.output_name.clone(),
     })
 }
 
@@ -114,9 +103,8 @@ pub(super) fn is_other_file(data: &Prepared, done: &FinalFit) -> bool {
     data.pieces.last().is_some_and(|piece| !piece.fitted) && other_rig(data, done).is_some()
 }
 
-/// What is to be said of a file that was held out as a whole and differs from the others by gain
-/// and offset alone.
-pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
+/// A file that was held out as a whole and differs from the others by gain and offset alone, or in more.
+pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let file = data.pieces.last().filter(|_| is_other_file(data, done))?;
     let (prediction, target) = (&done.solution.prediction, &data.target);
     let rows = data.split.held_out.iter();
@@ -128,16 +116,15 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<String> {
     if error >= LINE_LEAVES * now {
         let structure = &done.solution.structure;
         let may_help = structure.hysteresis && structure.own_gains == 0;
-        let said = " `--per-file gains` shows whether only the gains differ there.";
-        return may_help.then(|| said.to_owned());
+        return may_help.then_some(Finding::HeldOutFileDiffers);
     }
-    let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
-    Some(format!(
-        " With a gain of {gain:.4} and an offset of {offset:.4}{} the error is {:.2} % on {}: does a unit, a sign or a zero differ in that file? `--per-file gains` fits both for each file.",
-        unit.unwrap_or_default(),
-        100.0 * error,
-        file.path
-    ))
+    Some(Finding::HeldOutFileScaled {
+        path: file.path.clone(),
+        gain,
+        offset,
+        unit: data.output_unit.clone(),
+        error,
+    })
 }
 
 /// The channel that stands for the output in the delivered model: its terms make up nearly
@@ -193,28 +180,21 @@ fn made_of_channel(data: &Prepared, done: &Solution) -> Option<(f64, usize)> {
     all.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// What is to be asked where the displacement seems to be a velocity.
-pub(super) fn velocity_words(data: &Prepared) -> Option<String> {
+/// A displacement that seems to be a velocity.
+pub(super) fn velocity(data: &Prepared) -> Option<Finding> {
     let input = &data.input;
     let is = data.mode == Mode::Displacement && is_velocity(&input.name, input.unit.as_deref());
-    is.then(|| {
-        format!(
-            "Is `{}` a velocity? The input must be a displacement: use the position as the input, or integrate this column.",
-            input.name
-        )
+    is.then(|| Finding::InputIsVelocity {
+        input: input.name.clone(),
     })
 }
 
-/// What is to be said where some of the motion of the input is not known, and more than noise is
-/// left.
-pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<String> {
+/// Motion of the input that is not known, where more than noise is left.
+pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let is_left = data.noise_floor > 0.0 && done.rmse.fit > UNSEEN * data.noise_floor;
     let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);
-    is.then(|| {
-        format!(
-            "How `{}` moved while it was not measured is unknown, and the effect of that motion persists in the hysteresis.",
-            data.input.name
-        )
+    is.then(|| Finding::MotionUnseen {
+        input: data.input.name.clone(),
     })
 }
 

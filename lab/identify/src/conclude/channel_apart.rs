@@ -89,34 +89,3 @@ pub(crate) fn channel_apart(
         after: after / deviation,
     })
 }
-
-/// What is to be said of such a channel.
-pub(super) fn channel_words(apart: &ChannelApart) -> String {
-    let ChannelApart {
-        path,
-        channel,
-        swapped_with,
-        names,
-        before,
-        after,
-    } = apart;
-    let (asked, mended) = match swapped_with {
-        None => (
-            format!("Does `{channel}` have the opposite sign in `{path}`?"),
-            "its sign reversed",
-        ),
-        Some(other) => (
-            format!("Are `{channel}` and `{other}` swapped in `{path}`?"),
-            "both swapped",
-        ),
-    };
-    let what = match names.as_slice() {
-        [] => "the search finds no term".to_owned(),
-        names => format!("the search finds {}", names.join(", then ")),
-    };
-    format!(
-        "{asked} With {mended}, {what}, and the error of the fit is {:.2} % of the output's standard deviation instead of {:.2} %: the terms named here only compensate for this mistake. Correct the file first.",
-        100.0 * after,
-        100.0 * before
-    )
-}

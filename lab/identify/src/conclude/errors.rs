@@ -1,6 +1,7 @@
 //! The errors of a delivered model in words, and which of them count.
 
 use super::final_fit::FinalFit;
+use super::finding::Finding;
 use crate::fit::Segments;
 use crate::ledger::{Ledger, Round};
 use crate::problem::Prepared;
@@ -37,16 +38,11 @@ pub(super) fn missed(data: &Prepared, done: &FinalFit) -> f64 {
     done.rmse.normalised(data, &data.target).held_out
 }
 
-/// What is to be said of a model that misses much of the output, and more than noise.
-pub(super) fn poor_words(data: &Prepared, done: &FinalFit) -> Option<String> {
-    let share = missed(data, done);
-    let is_poor = share >= POOR && !floors(data, done).is_some_and(|errors| is_noise(data, errors));
-    is_poor.then(|| {
-        format!(
-            "A model with an error of {} of the output is poor.",
-            percent(share)
-        )
-    })
+/// A model that misses much of the output, and more than noise.
+pub(super) fn poor(data: &Prepared, done: &FinalFit) -> Option<Finding> {
+    let error = missed(data, done);
+    let is_poor = error >= POOR && !floors(data, done).is_some_and(|errors| is_noise(data, errors));
+    is_poor.then_some(Finding::PoorModel { error })
 }
 
 /// Whether a round raises the held-out error. The held-out part decides nothing: this is
@@ -100,25 +96,13 @@ pub fn percent(share: f64) -> String {
     format!("{:.digits$} %", 100.0 * share)
 }
 
-/// "from 2.23 % to 0.14 % of the output's standard deviation", as on the line of errors.
-pub(super) fn from_to(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
+/// The held-out errors of the baseline and of the delivered model, as shares.
+pub(super) fn before_after(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> (f64, f64) {
     let held_out = |rmse: &Segments| rmse.normalised(data, &data.target).held_out;
-    format!(
-        "from {} to {} of the output's standard deviation",
-        percent(held_out(&ledger.declared.rmse)),
-        percent(held_out(&done.rmse))
-    )
+    (held_out(&ledger.declared.rmse), held_out(&done.rmse))
 }
 
 /// The names in the order in which they came.
 pub(super) fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
     ledger.rounds.iter().map(|r| done.title_of(r)).collect()
-}
-
-/// "14 times the noise floor on the fit segment and 34 times held out".
-pub(super) fn multiples(data: &Prepared, done: &FinalFit) -> Option<String> {
-    let (fit, held_out) = floors(data, done)?;
-    Some(format!(
-        "{fit:.1} times the noise floor on the fit segment and {held_out:.1} times on the held-out segment"
-    ))
 }

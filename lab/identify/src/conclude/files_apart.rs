@@ -3,6 +3,7 @@
 
 use super::by_file::{nrmse_by_file, rows_of};
 use super::final_fit::FinalFit;
+use super::finding::Finding;
 use crate::algebra::line;
 use crate::fit::{fit, Segments, Solution};
 use crate::ledger::{FileApart, Ledger, RigsApart};
@@ -96,14 +97,19 @@ fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart>
     apart
 }
 
-/// What is to be said of files that are not of one rig.
-pub(super) fn rigs_words(ledger: &Ledger) -> Option<String> {
-    let rigs = ledger.rigs_apart.as_ref()?;
-    Some(format!(
-        "These files do not seem to come from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
-        100.0 * rigs.together,
-        100.0 * rigs.own
-    ))
+/// Files that are not of one rig.
+pub(super) fn several_rigs(ledger: &Ledger) -> Option<Finding> {
+    let RigsApart { together, own } = ledger.rigs_apart?;
+    Some(Finding::FilesOfSeveralRigs { together, own })
+}
+
+/// Files in which the output is another multiple.
+pub(super) fn files_scaled(data: &Prepared, ledger: &Ledger) -> Option<Finding> {
+    (!ledger.apart.is_empty()).then(|| Finding::FilesScaled {
+        files: ledger.apart.clone(),
+        of: data.pieces.iter().filter(|p| p.fitted).count(),
+        unit: data.output_unit.clone(),
+    })
 }
 
 /// The files with another gain. They are compared with the gains that describe the most files.
@@ -184,8 +190,8 @@ fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
 /// the file's length. A choice.
 const AT_THE_BEGINNING: f64 = 0.01;
 
-/// What is to be said of a pretension that steps where a file begins.
-pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<String> {
+/// A pretension that steps where a file begins.
+pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<Finding> {
     let steps = done.structure.terms.iter().filter(|t| t.has_moment());
     let moments: Vec<f64> = steps.filter_map(|t| t.effect.shape(0)).collect();
     let length = |piece: &Piece| piece.work.len() as f64 * data.dt;
@@ -194,55 +200,8 @@ pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<String> {
         moments.iter().any(|t_s| (t_s - piece.since).abs() <= near)
     };
     let piece = data.pieces.iter().skip(1).find(begins)?;
-    let may_help = done.structure.hysteresis && done.structure.own_gains == 0;
-    let gains = match may_help {
-        true => " `--per-file gains` fits an offset for each file.",
-        false => "",
-    };
-    Some(format!(
-        "The preload steps at the start of `{}`: does the zero of a sensor differ in this file?{gains}",
-        piece.path
-    ))
-}
-
-/// A number with four digits.
-pub(super) fn four_digits(value: f64) -> String {
-    let rounded = format!("{value:.3e}").parse().unwrap_or(value);
-    let rounded: f64 = rounded;
-    rounded.to_string()
-}
-
-/// What is to be said of such files; `None` where there are none.
-pub(super) fn apart_words(data: &Prepared, apart: &[FileApart]) -> Option<String> {
-    let (first, others) = apart.split_first()?;
-    let unit = data.output_unit.as_ref().map(|unit| format!(" {unit}"));
-    let where_it_is = match data.pieces.iter().filter(|p| p.fitted).count() {
-        2 => "in one of the two files",
-        _ => "there",
-    };
-    let asked = match first.gain < 0.0 {
-        true => format!("Does a sensor have the opposite sign {where_it_is}?"),
-        false => format!(
-            "Does a sensor have a different unit or calibration {where_it_is}, or is this a different rig?"
-        ),
-    };
-    let also = match others {
-        [] => String::new(),
-        [second] => format!(
-            " In `{}` the gain is {}.",
-            second.path,
-            four_digits(second.gain)
-        ),
-        more => format!(" {} more files have a different gain.", more.len()),
-    };
-    Some(format!(
-        "No single model describes these files: in `{}` the output is {} times the output with the gains of `{}`, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with this correction, and {:.0} % without it.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
-        first.path,
-        four_digits(first.gain),
-        first.than,
-        four_digits(first.offset),
-        unit.unwrap_or_default(),
-        100.0 * first.after,
-        100.0 * first.before
-    ))
+    Some(Finding::ZeroDiffers {
+        path: piece.path.clone(),
+        may_fit_gains: done.structure.hysteresis && done.structure.own_gains == 0,
+    })
 }

@@ -1,11 +1,11 @@
 //! What the baseline model lacks, and what naming it has done to the error: the first sentence.
 
-use super::changes::{begins, other_rig};
 use super::errors::{
-    falls_up_to, floors, from_to, held_out_ratio, is_noise, is_worse, missed, names, percent, RISES,
+    before_after, floors, held_out_ratio, is_noise, missed, names, percent, RISES,
 };
 use super::final_fit::FinalFit;
 use super::mechanisms::{lacking, mechanisms, Complete};
+use super::words::from_to;
 use crate::fit::Segments;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
@@ -17,7 +17,7 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
         0 if ledger.unknown.is_some() => {
             return format!(
                 "The baseline model lacks something that matches no effect in the catalogue; with a free curve for it the held-out error goes {}.",
-                from_to(data, ledger, done)
+                from_to(before_after(data, ledger, done))
             )
         }
         0 => return nothing_found(data, ledger, done),
@@ -35,7 +35,7 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
         "{} With {} the held-out error {goes} {}.{}",
         lacking(&mechanisms(data, ledger, done)),
         added.join(", then "),
-        from_to(data, ledger, done),
+        from_to(before_after(data, ledger, done)),
         candidates(data, ledger)
     )
 }
@@ -86,51 +86,5 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
             percent(missed(data, done))
         ),
         false => "This record shows no effect that the baseline model lacks.".to_owned(),
-    }
-}
-
-/// Why the model must not be used on other data.
-pub(super) fn rises(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let ratio = held_out_ratio(ledger, done);
-    if let (false, Some((fit, held_out))) = (is_worse(ledger, done), other_rig(data, done)) {
-        let since = begins(data, done).map(|t| format!(", from {t:.3} s on"));
-        return format!(
-            "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{}. The two segments differ: do not use this model on other data. Has the rig changed, or the sensor of `{}`?{}",
-            percent(fit),
-            percent(held_out),
-            since.unwrap_or_default(),
-            data.output_name,
-            so_far(ledger, done)
-        );
-    }
-    if !is_worse(ledger, done) {
-        return format!(
-            "On the held-out segment the model is worse than a constant: its error goes {}. Do not use this model on other data.",
-            from_to(data, ledger, done)
-        );
-    }
-    let mut text = format!(
-        "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
-        from_to(data, ledger, done)
-    );
-    let added = names(ledger, done);
-    if !added.is_empty() {
-        let fell = falls_up_to(ledger);
-        text += &format!(" The search added {}", added.join(", then "));
-        text += &match fell {
-            0 => "; the first one already raises the error.".to_owned(),
-            n if n < added.len() => format!("; the error falls up to {}.", added[n - 1]),
-            _ => "; the final fit, on more data, raises the error.".to_owned(),
-        };
-    }
-    text
-}
-
-/// What was added to a model that does not carry over.
-fn so_far(ledger: &Ledger, done: &FinalFit) -> String {
-    let added = names(ledger, done);
-    match added.is_empty() {
-        true => String::new(),
-        false => format!(" The search added {}.", added.join(", then ")),
     }
 }

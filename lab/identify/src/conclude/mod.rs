@@ -9,6 +9,8 @@ mod errors;
 mod excitation;
 pub mod files_apart;
 pub mod final_fit;
+pub mod finding;
+pub mod findings;
 pub mod intervals;
 mod lacks;
 pub mod mechanisms;
@@ -22,5 +24,6 @@ pub mod trace;
 pub mod unneeded;
 pub mod verdict;
 mod without;
+mod words;
 
 pub use shares::Shares;

@@ -1,9 +1,9 @@
-//! Where there is no model of the input: whether, and in which words.
+//! Where there is no model of the input: whether, and why.
 
 use super::changes::is_other_file;
-use super::channel_apart::channel_words;
-use super::files_apart::apart_words;
+use super::files_apart::files_scaled;
 use super::final_fit::FinalFit;
+use super::finding::Finding;
 use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
@@ -75,70 +75,42 @@ pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> 
     ledger.integrates || !ledger.apart.is_empty() || ledger.channel_apart.is_some() || little
 }
 
-/// A share of the output's variance, "63 %", "0.4 %", "0 %".
-fn share_of(share: f64) -> String {
-    let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
-    format!("{:.digits$} %", 100.0 * share)
-}
-
-/// What the input, the other channels and functions of time explain, in one clause.
-fn explains(data: &Prepared, shares: Explained) -> String {
-    let mut text = format!(
-        "the input `{}` explains {} of the held-out output",
-        data.input.name,
-        share_of(shares.input)
-    );
-    if shares.channels >= 0.005 && !data.channels.is_empty() {
-        text += &format!(", the other channels {}", share_of(shares.channels));
-    }
-    if shares.time >= 0.005 {
-        text += &format!(
-            ", and tones and drifts (functions of time only) {}",
-            share_of(shares.time)
-        );
-    }
-    text
-}
-
-pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
-    let (input, output) = (&data.input.name, &data.output_name);
+/// Why there is no model.
+pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Finding {
+    let (input, output) = (data.input.name.clone(), data.output_name.clone());
     if ledger.integrates {
-        let swap = match data.mode {
-            Mode::Torque => "they were mixed up".to_owned(),
-            Mode::Displacement => format!(
-                "`{input}` is the force and `{output}` the motion: a spring in series with a dashpot creeps under a constant force"
-            ),
+        let may_creep = data.mode == Mode::Displacement;
+        return Finding::OutputIntegrates {
+            input,
+            output,
+            may_creep,
         };
-        return format!(
-            "The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. There was no search. Differentiate `{output}` first, or swap the columns if {swap}."
-        );
     }
-    if let Some(words) = apart_words(data, &ledger.apart) {
-        return words;
+    if let Some(scaled) = files_scaled(data, ledger) {
+        return scaled;
     }
     if let Some(apart) = &ledger.channel_apart {
-        return channel_words(apart);
+        return Finding::ChannelDiffers(apart.clone());
     }
     if data.is_shuffled() {
-        return format!(
-            "This record gives no model: neighbouring rows of the input `{input}` have nothing in common, but `{output}` follows it row by row. Are the rows in time order?"
-        );
+        return Finding::RowsShuffled { input, output };
     }
     if data.is_at_rest() {
-        return format!(
-            "This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."
-        );
+        return Finding::InputAtRest { input };
     }
-    let shares = explained(data, &done.solution);
-    if let Some(alone) = stood_in_for(data, ledger, done) {
-        return format!(
-            "This is not a model of the transmission: {}, although in the baseline model alone the input explains {}. A channel repeats the output, as the angle behind a spring does: omit its column.",
-            explains(data, shares),
-            share_of(alone)
-        );
+    let explains = explained(data, &done.solution);
+    let channels = data.channels.len();
+    match stood_in_for(data, ledger, done) {
+        Some(alone) => Finding::ChannelTakesOver {
+            input,
+            explains,
+            channels,
+            alone,
+        },
+        None => Finding::NothingExplained {
+            input,
+            explains,
+            channels,
+        },
     }
-    format!(
-        "This record gives no model: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
-        explains(data, shares)
-    )
 }

@@ -3,8 +3,9 @@
 //! The edges of the steps are true to a fraction of a sample. With a line through them in place
 //! of the steps the model gives another output: the difference is what the steps do to it.
 
-use super::files_apart::four_digits;
 use super::final_fit::FinalFit;
+use super::finding::Finding;
+use super::words::{four_digits, spaced};
 use crate::fit::Solution;
 use crate::ledger::{CoarseChannel, Grade, Ledger, Round};
 use crate::model::columns::{raw_columns, weighted};
@@ -129,34 +130,27 @@ fn note(data: &Prepared, coarse: &CoarseChannel) -> String {
         false => format!("{:.2e} of the output's unit", coarse.error),
     };
     format!(
-        "`{}` has a resolution of {}, 1/{} of its range, which causes an error of {error} in the model's output",
+        "`{}` has a resolution of {}{}, 1/{} of its range, which causes an error of {error} in the model's output",
         coarse.channel,
-        with_unit(data, coarse),
+        four_digits(coarse.step),
+        spaced(unit(data, &coarse.channel).as_deref()),
         coarse.counts
     )
 }
 
-/// One step with its unit.
-fn with_unit(data: &Prepared, coarse: &CoarseChannel) -> String {
+/// The unit of a channel.
+fn unit(data: &Prepared, channel: &str) -> Option<String> {
     let mut all = std::iter::once(&data.input).chain(&data.channels);
-    let unit = all
-        .find(|c| c.name == coarse.channel)
-        .and_then(|c| c.unit.clone());
-    let step = four_digits(coarse.step);
-    unit.map_or_else(|| step.clone(), |unit| format!("{step} {unit}"))
+    all.find(|c| c.name == channel).and_then(|c| c.unit.clone())
 }
 
-/// What the sentence says of coarse channels.
-pub(super) fn coarse_words(data: &Prepared, ledger: &Ledger) -> Vec<String> {
-    let words = |one: &CoarseChannel| {
-        let names = match one.names.as_slice() {
-            [] => String::new(),
-            names => format!(", here {},", names.join(", ")),
-        };
-        format!(
-            "`{}` has a resolution of {}, 1/{} of its range, and its steps account for much of the residual: terms that depend on its velocity or its reversals{names} are uncertain.",
-            one.channel, with_unit(data, one), one.counts
-        )
-    };
-    ledger.coarse.iter().map(words).collect()
+/// The channels of a coarse sensor.
+pub(super) fn coarse<'a>(
+    data: &'a Prepared,
+    ledger: &'a Ledger,
+) -> impl Iterator<Item = Finding> + 'a {
+    ledger.coarse.iter().map(|one| Finding::CoarseSensor {
+        channel: one.clone(),
+        unit: unit(data, &one.channel),
+    })
 }

@@ -1,7 +1,7 @@
 //! Gains that need a word: those whose sign misleads, and that of the tension.
 
-use super::errors::percent;
 use super::final_fit::FinalFit;
+use super::finding::Finding;
 use super::intervals::{parameters, term_title};
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
@@ -33,31 +33,25 @@ const FRICTION: [&str; 12] = [
     "position-hysteresis",
 ];
 
-/// What is to be said of tones at lines that the motion itself may make.
-pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<String> {
+/// Tones at lines that the motion itself may make.
+pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<Finding> {
     let terms = solution.structure.terms.iter();
     let tones = terms.filter(|term| may_be_of_the_motion(data, term));
-    let tones: Vec<String> = tones.map(|t| term_title(data, t)).collect();
-    (!tones.is_empty()).then(|| {
-        format!(
-            "The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.",
-            tones.join(", ")
-        )
-    })
+    let terms: Vec<String> = tones.map(|t| term_title(data, t)).collect();
+    (!terms.is_empty()).then_some(Finding::TonesOfMotion { terms })
 }
 
-/// What is to be said where `eta` times the torque is among the parts.
-pub(super) fn of_tension(data: &Prepared, solution: &Solution) -> Option<String> {
+/// `eta` times the torque among the parts.
+pub(super) fn of_tension(data: &Prepared, solution: &Solution) -> Option<Finding> {
     let mut terms = solution.structure.terms.iter();
     let is_of_torque =
         |t: &FitTerm| t.effect.name() == "position-hysteresis" && t.source == Source::Input;
-    (data.mode == Mode::Torque && terms.any(is_of_torque)).then(|| {
-        "The effect `position-hysteresis` on the torque is eta times the torque: the friction of the cable grows with its tension, as with a rope around a post.".to_owned()
-    })
+    let is = data.mode == Mode::Torque && terms.any(is_of_torque);
+    is.then_some(Finding::FrictionWithTension)
 }
 
-/// What is to be said where `eta` times a temperature is among the parts.
-pub(super) fn of_temperature(data: &Prepared, solution: &Solution) -> Option<String> {
+/// `eta` times a temperature among the parts.
+pub(super) fn of_temperature(data: &Prepared, solution: &Solution) -> Option<Finding> {
     let of_temperature = |t: &&FitTerm| {
         let channel = data.channel(t.source);
         t.effect.name() == "position-hysteresis"
@@ -65,24 +59,21 @@ pub(super) fn of_temperature(data: &Prepared, solution: &Solution) -> Option<Str
     };
     let mut terms = solution.structure.terms.iter();
     let channel = data.channel(terms.find(of_temperature)?.source)?;
-    Some(format!(
-        "The effect `position-hysteresis` on `{0}` is eta times the temperature: the friction changes with `{0}`.",
-        channel.name
-    ))
+    Some(Finding::FrictionWithTemperature {
+        channel: channel.name.clone(),
+    })
 }
 
-/// What is to be said of a torque that falls where the input rises.
-pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<String> {
+/// A torque that falls where the input rises.
+pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<Finding> {
     if data.mode != Mode::Torque || input_gain(solution)? >= 0.0 {
         return None;
     }
     let rows = data.split.fit.iter();
     let (slope, _) = line(rows.map(|&i| (solution.columns[0][i], data.target[i])));
-    (slope < 0.0).then(|| {
-        format!(
-            "`{}` falls while `{}` rises: the sign of one of them is probably reversed, and `bowden design` refuses the model until this is corrected.",
-            data.output_name, data.input.name
-        )
+    (slope < 0.0).then(|| Finding::OutputFalls {
+        input: data.input.name.clone(),
+        output: data.output_name.clone(),
     })
 }
 
@@ -102,9 +93,9 @@ fn input_gain(solution: &Solution) -> Option<f64> {
     Some(solution.gains[0] + shares.map(|(i, _)| solution.gain(i)).sum::<f64>())
 }
 
-/// What is to be said of a hysteresis whose loop turns against that of the output: beside other parts its
+/// A hysteresis whose loop turns against that of the output: beside other parts its
 /// gain is that of a difference.
-pub(super) fn turns_against(done: &FinalFit) -> Option<String> {
+pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     let (data, solution) = (&done.data, &done.solution);
     let structure = &solution.structure;
     if !structure.hysteresis || structure.own_gains > 0 {
@@ -130,12 +121,9 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<String> {
     let shown = all.iter().find(|p| p.name == "kappa_eta")?;
     // An interval that holds zero says nothing of the sign.
     let is_known = shown.ci95.is_none_or(|[low, high]| low * high > 0.0);
-    is_known.then(|| {
-        format!(
-            "The hysteresis loop runs in the opposite sense to the output's loop (kappa_eta {:.3}): its gain and the effect of {} partly cancel, so neither alone is a property of the rig.",
-            shown.value,
-            others.join(", ")
-        )
+    is_known.then_some(Finding::LoopReversed {
+        kappa_eta: shown.value,
+        terms: others,
     })
 }
 
@@ -147,15 +135,15 @@ pub(crate) fn comes_before(data: &Prepared) -> bool {
     data.mode == Mode::Torque && slope * area(data, &data.target) > 0.0
 }
 
-/// What is to be asked where input and output may stand in each other's place.
-pub(super) fn exchanged_words(data: &Prepared, ledger: &Ledger) -> Option<String> {
+/// Input and output that may stand in each other's place.
+pub(super) fn swapped(data: &Prepared, ledger: &Ledger) -> Option<Finding> {
     let [before, after] = ledger.exchanged?;
-    let (input, output) = (&data.input.name, &data.output_name);
-    Some(format!(
-        "Are `{input}` and `{output}` swapped? `{output}` leads `{input}`. With the two columns swapped, the baseline model has an error of {} of the output's standard deviation instead of {}.",
-        percent(after),
-        percent(before)
-    ))
+    Some(Finding::InputOutputSwapped {
+        input: data.input.name.clone(),
+        output: data.output_name.clone(),
+        before,
+        after,
+    })
 }
 
 /// Area of the loop of a signal over the input: the integral of it times the input's rate.

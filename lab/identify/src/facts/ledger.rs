@@ -7,10 +7,12 @@ use super::round::{fits, size, RoundFacts};
 use crate::conclude::by_file::{worse, Worse};
 use crate::conclude::curve::{curve, Knot};
 use crate::conclude::final_fit::FinalFit;
+use crate::conclude::finding::Told;
+use crate::conclude::findings::{findings, no_name, summary};
 use crate::conclude::intervals::term_title;
 use crate::conclude::mechanisms::{mechanisms, Complete, FileAlone, Lack};
 use crate::conclude::unneeded::{unneeded, Unneeded};
-use crate::conclude::verdict::{falls_up_to, sentence, unknown_words, verdict, Verdict};
+use crate::conclude::verdict::{falls_up_to, verdict, Verdict};
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
 use crate::ledger::{ChannelApart, FileApart, Gate, Ledger, Unknown};
@@ -76,6 +78,8 @@ pub struct Facts {
     pub correlated_for: Option<f64>,
     /// The verdict.
     pub verdict: Verdict,
+    /// What a reader must know besides the missing mechanisms, the most important first.
+    pub findings: Vec<Told>,
     /// The verdict in a few sentences.
     pub sentence: String,
 }
@@ -161,7 +165,7 @@ impl UnknownFacts {
             },
             before: unknown.before,
             after: unknown.after,
-            sentence: unknown_words(data, ledger).unwrap_or_default(),
+            sentence: no_name(data, ledger).map_or_else(String::new, |own| own.words()),
         }
     }
 }
@@ -195,7 +199,8 @@ impl Facts {
         let in_firmware = used.and_then(|hand| warning(data, hand));
         let price = hand.ok().and_then(price);
         let mut words: Vec<String> = used.and_then(useless).into_iter().collect();
-        let sentence = sentence(data, ledger, done);
+        let findings = findings(data, ledger, done, found);
+        let sentence = summary(data, ledger, done, found, &findings);
         match price {
             Some(price) if is_model => {
                 words.push(price);
@@ -239,6 +244,7 @@ impl Facts {
             stopped_by_budget: ledger.stopped_by_budget,
             correlated_for: (ledger.regime == Regime::Effect).then_some(ledger.correlation_time),
             verdict: found,
+            findings: findings.into_iter().map(Told::from).collect(),
             sentence: words.join(" "),
             last,
         }

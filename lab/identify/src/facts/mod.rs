@@ -42,6 +42,7 @@ pub use crate::check::{
 };
 pub use crate::conclude::by_file::{FileErrors, Worse};
 pub use crate::conclude::curve::Knot;
+pub use crate::conclude::finding::{Finding, Severity, Told};
 pub use crate::conclude::intervals::{Parameter, Refusal};
 pub use crate::conclude::mechanisms::{
     across, lacking, Across, Complete, DescribedBy, FileAlone, Lack, LackAlone,

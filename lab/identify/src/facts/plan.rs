@@ -2,9 +2,10 @@
 
 use super::asked::{label, Asked};
 use crate::conclude::final_fit::FinalFit;
+use crate::conclude::findings::sentence;
 use crate::conclude::intervals::term_name;
 use crate::conclude::rivals::each_pair_once;
-use crate::conclude::verdict::{sentence, verdict, Verdict};
+use crate::conclude::verdict::{verdict, Verdict};
 use crate::foresight::plan::{
     separate_first, strengthen, trajectory, unidentified, Aim, Experiment,
 };

@@ -7,7 +7,9 @@ mod habits;
 mod spikes;
 
 use bowden_lab::conclude::final_fit::FinalFit;
-use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
+use bowden_lab::conclude::finding::Finding;
+use bowden_lab::conclude::findings::findings;
+use bowden_lab::conclude::verdict::{verdict, Verdict};
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{Preparation, Prepared};
@@ -324,8 +326,16 @@ fn what_is_concluded_from_a_stuck_input_is_a_data_defect() {
     cells.freeze(TAU_I, 2500, 3300);
     let (data, ledger) = closed(&cells.read());
     assert_eq!(verdict_of(&data, &ledger), Verdict::DefectiveRecord);
-    let told = sentence(&data, &ledger, &FinalFit::new(&data, &ledger));
-    assert!(told.contains("tau_i (stuck)"), "{told}");
+    let done = FinalFit::new(&data, &ledger);
+    let found = findings(&data, &ledger, &done, Verdict::DefectiveRecord);
+    let is_stuck = |f: &Finding| match f {
+        Finding::DefectiveMeasurement { defects } => {
+            let mut all = defects.iter();
+            all.any(|d| (d.kind, &*d.channel) == (DefectKind::Stuck, "tau_i"))
+        }
+        _ => false,
+    };
+    assert!(found.iter().any(is_stuck), "{found:#?}");
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! What is missing, by mechanism; terms as candidates; stages within what is physical.
 
 use crate::rig::{record, Closed};
+use bowden_lab::conclude::findings::sentence;
 use bowden_lab::conclude::mechanisms::{mechanisms, Lack};
-use bowden_lab::conclude::verdict::sentence;
 use bowden_lab::ledger::Grade;
 use bowden_lab::model::declared::structure;
 use bowden_lab::model::mechanism::Mechanism;

@@ -1,7 +1,9 @@
 //! At most so many effects.
 
 use crate::rig::Closed;
-use bowden_lab::conclude::verdict::{sentence, verdict, Verdict};
+use bowden_lab::conclude::finding::Finding;
+use bowden_lab::conclude::findings::{findings, sentence};
+use bowden_lab::conclude::verdict::{verdict, Verdict};
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// A rig that lacks three effects.
@@ -19,6 +21,13 @@ fn three() -> Recipe {
             },
         ],
         ..Recipe::of_one_rig(Mode::Displacement, 73_000)
+    }
+}
+
+fn stopped(most: usize) -> Finding {
+    Finding::SearchStopped {
+        seconds: None,
+        terms: Some(most),
     }
 }
 
@@ -52,8 +61,8 @@ fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
             false => Verdict::Stopped,
         };
         assert_eq!(found, expected, "{most}");
-        let told = sentence(&closed.data, &closed.ledger, &closed.done);
-        assert!(told.contains("may be missing"), "{told}");
+        let all = findings(&closed.data, &closed.ledger, &closed.done, found);
+        assert!(all.contains(&stopped(most)), "{all:#?}");
     }
 }
 
@@ -67,8 +76,10 @@ fn a_search_that_ends_before_its_limit_has_not_been_stopped() {
     let closed = Closed::new(&recipe, &["bouc-wen"], 5);
     assert_eq!(closed.ledger.rounds.len(), 1);
     assert_eq!(closed.ledger.stopped_by_request, None);
-    let told = sentence(&closed.data, &closed.ledger, &closed.done);
-    assert!(!told.contains("as asked"), "{told}");
+    let found = verdict(&closed.data, &closed.ledger, &closed.done);
+    let all = findings(&closed.data, &closed.ledger, &closed.done, found);
+    let is_stopped = |f: &Finding| matches!(f, Finding::SearchStopped { .. });
+    assert!(!all.iter().any(is_stopped), "{all:#?}");
 }
 
 #[test]

@@ -1,0 +1,326 @@
+//! What a finding says: one table.
+
+use super::errors::percent;
+use super::finding::Finding;
+use crate::ledger::{ChannelApart, CoarseChannel, FileApart};
+use crate::score::explains::Explained;
+use crate::score::ranges::Outside;
+
+/// Least share of an unmodelled curve, taken by names to first order, at which the sentence says
+/// why the curve was preferred. A choice: a reader who is told "95 %" asks why there is no name.
+const NEARLY_ALL: f64 = 0.9;
+
+impl Finding {
+    /// The finding in a sentence or two.
+    #[must_use]
+    #[allow(clippy::too_many_lines)] // A table: an arm for each finding.
+    pub fn words(&self) -> String {
+        match self {
+            // Why there is no model.
+            Self::OutputIntegrates { input, output, may_creep } => {
+                let swap = match may_creep {
+                    false => "they were mixed up".to_owned(),
+                    true => format!("`{input}` is the force and `{output}` the motion: a spring in series with a dashpot creeps under a constant force"),
+                };
+                format!("The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. There was no search. Differentiate `{output}` first, or swap the columns if {swap}.")
+            }
+            Self::FilesScaled { files, of, unit } => scaled(files, *of, unit.as_deref()),
+            Self::ChannelDiffers(apart) => differs(apart),
+            Self::RowsShuffled { input, output } => format!("This record gives no model: neighbouring rows of the input `{input}` have nothing in common, but `{output}` follows it row by row. Are the rows in time order?"),
+            Self::InputAtRest { input } => format!("This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."),
+            Self::ChannelTakesOver { input, explains, channels, alone } => format!(
+                "This is not a model of the transmission: {}, although in the baseline model alone the input explains {}. A channel repeats the output, as the angle behind a spring does: omit its column.",
+                explained(input, *explains, *channels),
+                share(*alone)
+            ),
+            Self::NothingExplained { input, explains, channels } => format!(
+                "This record gives no model: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
+                explained(input, *explains, *channels)
+            ),
+            // Why the model must not be used on other data.
+            Self::RigChanged { fit, held_out, since, output, terms } => {
+                let since = since.map(|t| format!(", from {t:.3} s on")).unwrap_or_default();
+                let added = match terms.as_slice() {
+                    [] => String::new(),
+                    terms => format!(" The search added {}.", terms.join(", then ")),
+                };
+                format!(
+                    "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. The two segments differ: do not use this model on other data. Has the rig changed, or the sensor of `{output}`?{added}",
+                    percent(*fit),
+                    percent(*held_out),
+                )
+            }
+            Self::HeldOutFileScaled { path, gain, offset, unit, error } => format!(
+                "With a gain of {gain:.4} and an offset of {offset:.4}{} the error is {:.2} % on {path}: does a unit, a sign or a zero differ in that file? `--per-file gains` fits both for each file.",
+                spaced(unit.as_deref()),
+                100.0 * error,
+            ),
+            Self::HeldOutFileDiffers => {
+                "`--per-file gains` shows whether only the gains differ there.".to_owned()
+            }
+            Self::WorseThanConstant { before, after } => format!(
+                "On the held-out segment the model is worse than a constant: its error goes {}. Do not use this model on other data.",
+                from_to((*before, *after))
+            ),
+            Self::HeldOutRises { ratio, before, after, terms, falls_up_to } => {
+                let mut text = format!(
+                    "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
+                    from_to((*before, *after))
+                );
+                if !terms.is_empty() {
+                    text += &format!(" The search added {}", terms.join(", then "));
+                    text += &match *falls_up_to {
+                        0 => "; the first one already raises the error.".to_owned(),
+                        n if n < terms.len() => format!("; the error falls up to {}.", terms[n - 1]),
+                        _ => "; the final fit, on more data, raises the error.".to_owned(),
+                    };
+                }
+                text
+            }
+            // What is left.
+            Self::ResidualIsNoise => "The residual is the sensor's noise.".to_owned(),
+            Self::HeldOutAboveNoise { held_out } => format!("The residual is the sensor's noise on the fit segment, but {held_out:.1} times this noise on the held-out segment: the two segments differ."),
+            Self::ResidualAboveNoise { floors, is_white, terms } => {
+                let size = match floors {
+                    Some([fit, held_out]) => format!("The residual is {fit:.1} times the noise floor on the fit segment and {held_out:.1} times on the held-out segment"),
+                    None => "The record does not show its noise floor (the cut-off is too close to half the sampling rate)".to_owned(),
+                };
+                let colour = match (is_white, terms) {
+                    (None, _) => "",
+                    (Some(true), _) => "; it looks like white noise and depends on no measured quantity",
+                    // The first sentence says already that no effect was found.
+                    (Some(false), 0) => "; it is coloured",
+                    (Some(false), _) => "; it is coloured, but no further effect of the catalogue explains it",
+                };
+                format!("{size}{colour}.")
+            }
+            Self::NoNameForCurve { variable, by_effects } => {
+                // What names would take is known to first order; what was refitted and tested is decisive.
+                let but = match *by_effects >= NEARLY_ALL {
+                    true => ", but none is accepted after a refit",
+                    false => "",
+                };
+                format!(
+                    "The residual depends on {variable}; to first order, the best one or two effects of the catalogue explain {:.0} % of what a curve over it explains{but}.",
+                    100.0 * by_effects
+                )
+            }
+            Self::TermsConfounded { pairs } => {
+                format!("This record cannot distinguish {}.", pairs.join("; nor "))
+            }
+            Self::TooFewBlocks { terms } => {
+                let names = match terms {
+                    0 => "only a large effect would be found",
+                    _ => "the named terms are proposals",
+                };
+                format!("The record has too few independent stretches for a test: {names}.")
+            }
+            Self::PoorModel { error } => {
+                format!("A model with an error of {} of the output is poor.", percent(*error))
+            }
+            // What is to be known about the record.
+            Self::DefectiveMeasurement { defects } => {
+                let all = defects.iter();
+                let all = all.map(|d| format!("{} ({})", d.channel, d.kind.name()));
+                let all: Vec<String> = all.collect();
+                format!("The measurement is defective: {}. Correct the cause and record again.", all.join(", "))
+            }
+            Self::OneStroke { input } => format!("`{input}` reverses fewer than two times on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions."),
+            Self::InputIsVelocity { input } => format!("Is `{input}` a velocity? The input must be a displacement: use the position as the input, or integrate this column."),
+            Self::InputOutputSwapped { input, output, before, after } => format!(
+                "Are `{input}` and `{output}` swapped? `{output}` leads `{input}`. With the two columns swapped, the baseline model has an error of {} of the output's standard deviation instead of {}.",
+                percent(*after),
+                percent(*before)
+            ),
+            Self::Extrapolation(Outside { channel, unit, seen, here, .. }) => {
+                let unit = spaced(unit.as_deref());
+                let ends = |[low, high]: [f64; 2]| format!("{} to {}", four_digits(low), four_digits(high));
+                format!(
+                    "The fit segment covers `{channel}` from {}{unit}, and the held-out segment covers it from {}{unit}: the held-out error is an extrapolation error.",
+                    ends(*seen),
+                    ends(*here)
+                )
+            }
+            Self::MotionUnseen { input } => format!("How `{input}` moved while it was not measured is unknown, and the effect of that motion persists in the hysteresis."),
+            Self::FilesOfSeveralRigs { together, own } => format!(
+                "These files do not seem to come from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
+                100.0 * together,
+                100.0 * own
+            ),
+            Self::ZeroDiffers { path, may_fit_gains } => {
+                let gains = match may_fit_gains {
+                    true => " `--per-file gains` fits an offset for each file.",
+                    false => "",
+                };
+                format!("The preload steps at the start of `{path}`: does the zero of a sensor differ in this file?{gains}")
+            }
+            Self::CoarseSensor { channel, unit } => coarse(channel, unit.as_deref()),
+            Self::OutputLeads { seconds, may_be_effect } => {
+                let ms = 1e3 * seconds;
+                match may_be_effect {
+                    true => format!("In the model the output precedes the input by about {ms:.1} ms, which is not causal: either the two were logged on different clocks, or the lead is an effect that the model lacks."),
+                    false => format!("The output precedes the input by about {ms:.1} ms, which is not causal: were both logged on one clock?"),
+                }
+            }
+            Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
+                true => format!("The output moves {:.0} times less on the held-out segment than on the fit segment: their percentages are not comparable.", fit / held_out),
+                false => format!("The output moves {:.0} times more on the held-out segment than on the fit segment: their percentages are not comparable.", held_out / fit),
+            },
+            // What is to be known about the model.
+            Self::PreslidingIsBacklash { sign_tells } => {
+                let own = match sign_tells {
+                    true => "; with the sign of kappa_x, presliding is a slipping spring; with the opposite sign, it is slack",
+                    false => "",
+                };
+                format!("Presliding and backlash are one function with opposite signs: either name is right{own}.")
+            }
+            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input: is it a drift of `{output}`, for example of a sensor that warms up? A record made after the rig has run for longer would show which of the two it is."),
+            Self::HysteresisLeftOut => "The baseline hysteresis is excluded from the model: this record cannot distinguish it from a spring and an offset.".to_owned(),
+            Self::HysteresisCancelled { share } => format!(
+                "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains cancel each other, and the model holds only within the recorded range.",
+                percent(*share)
+            ),
+            Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.", terms.join(", ")),
+            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque: the friction of the cable grows with its tension, as with a rope around a post.".to_owned(),
+            Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times the temperature: the friction changes with `{channel}`."),
+            Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises: the sign of one of them is probably reversed, and `bowden design` refuses the model until this is corrected."),
+            Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the output's loop (kappa_eta {kappa_eta:.3}): its gain and the effect of {} partly cancel, so neither alone is a property of the rig.", terms.join(", ")),
+            Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need it: does it measure the output, as the angle behind a spring does? If so, omit its column."),
+            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`: in this record the load follows `{channel}`, so the model describes the load. It will not hold with another load: record another load, or name the transmission's terms in --baseline."),
+            Self::SearchStopped { seconds: Some(seconds), .. } => format!("The search stopped after {seconds} s, as requested: this is the best model so far, and further terms may be missing."),
+            Self::SearchStopped { terms: None | Some(0), .. } => "There was no search for effects, as requested.".to_owned(),
+            Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one effect, as requested: further terms may be missing.".to_owned(),
+            Self::SearchStopped { terms: Some(most), .. } => format!("The search stopped after {most} effects, as requested: further terms may be missing."),
+            Self::RoundRaises { term, after: 0 } => format!("On held-out data the first term, {term}, already raises the error."),
+            Self::RoundRaises { term, after } => format!("On held-out data the error falls up to round {after}; {term} raises it."),
+            Self::FileWorse { path, before, after } => format!("The error rises for {path}: {:.1} % → {:.1} %.", 100.0 * before, 100.0 * after),
+            Self::ManyTerms { .. } => "Terms after the third one carry little meaning: several effects would fit equally well.".to_owned(),
+        }
+    }
+}
+
+/// The unit behind a number.
+pub(super) fn spaced(unit: Option<&str>) -> String {
+    unit.map_or_else(String::new, |unit| format!(" {unit}"))
+}
+
+/// A number with four digits.
+pub(super) fn four_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
+/// "from 2.23 % to 0.14 % of the output's standard deviation", as on the line of errors.
+pub(super) fn from_to((before, after): (f64, f64)) -> String {
+    format!(
+        "from {} to {} of the output's standard deviation",
+        percent(before),
+        percent(after)
+    )
+}
+
+/// A share of the output's variance, "63 %", "0.4 %", "0 %".
+fn share(share: f64) -> String {
+    let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// What the input, the other channels and functions of time explain, in one clause.
+fn explained(input: &str, explains: Explained, channels: usize) -> String {
+    let mut text = format!(
+        "the input `{input}` explains {} of the held-out output",
+        share(explains.input)
+    );
+    if explains.channels >= 0.005 && channels > 0 {
+        text += &format!(", the other channels {}", share(explains.channels));
+    }
+    if explains.time >= 0.005 {
+        text += &format!(
+            ", and tones and drifts (functions of time only) {}",
+            share(explains.time)
+        );
+    }
+    text
+}
+
+/// Files with another gain.
+fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
+    let Some((first, others)) = files.split_first() else {
+        return String::new();
+    };
+    let where_it_is = match of {
+        2 => "in one of the two files",
+        _ => "there",
+    };
+    let asked = match first.gain < 0.0 {
+        true => format!("Does a sensor have the opposite sign {where_it_is}?"),
+        false => format!(
+            "Does a sensor have a different unit or calibration {where_it_is}, or is this a different rig?"
+        ),
+    };
+    let also = match others {
+        [] => String::new(),
+        [second] => format!(
+            " In `{}` the gain is {}.",
+            second.path,
+            four_digits(second.gain)
+        ),
+        more => format!(" {} more files have a different gain.", more.len()),
+    };
+    format!(
+        "No single model describes these files: in `{}` the output is {} times the output with the gains of `{}`, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with this correction, and {:.0} % without it.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
+        first.path,
+        four_digits(first.gain),
+        first.than,
+        four_digits(first.offset),
+        spaced(unit),
+        100.0 * first.after,
+        100.0 * first.before
+    )
+}
+
+/// A channel that was logged otherwise in one file.
+fn differs(apart: &ChannelApart) -> String {
+    let ChannelApart {
+        path,
+        channel,
+        swapped_with,
+        names,
+        before,
+        after,
+    } = apart;
+    let (asked, mended) = match swapped_with {
+        None => (
+            format!("Does `{channel}` have the opposite sign in `{path}`?"),
+            "its sign reversed",
+        ),
+        Some(other) => (
+            format!("Are `{channel}` and `{other}` swapped in `{path}`?"),
+            "both swapped",
+        ),
+    };
+    let what = match names.as_slice() {
+        [] => "the search finds no term".to_owned(),
+        names => format!("the search finds {}", names.join(", then ")),
+    };
+    format!(
+        "{asked} With {mended}, {what}, and the error of the fit is {:.2} % of the output's standard deviation instead of {:.2} %: the terms named here only compensate for this mistake. Correct the file first.",
+        100.0 * after,
+        100.0 * before
+    )
+}
+
+/// A channel whose steps matter.
+fn coarse(one: &CoarseChannel, unit: Option<&str>) -> String {
+    let names = match one.names.as_slice() {
+        [] => String::new(),
+        names => format!(", here {},", names.join(", ")),
+    };
+    format!(
+        "`{}` has a resolution of {}{}, 1/{} of its range, and its steps account for much of the residual: terms that depend on its velocity or its reversals{names} are uncertain.",
+        one.channel,
+        four_digits(one.step),
+        spaced(unit),
+        one.counts
+    )
+}
