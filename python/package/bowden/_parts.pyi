@@ -122,6 +122,7 @@ class Term(Fields):
     coefficients: list[Coefficient]
     p: Optional[float]
     explained: float
+    explained_by_file: list[Fields]
     alternatives: list[Fields]
     experiment: Optional[Fields]
     rmse_before: Segments

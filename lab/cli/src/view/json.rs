@@ -4,8 +4,8 @@ use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
     ChannelApart, Complete, CostFacts, Defect, Experiment, Explained, Facts, FileAlone, FileApart,
-    FileErrors, FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter, RejectedFacts,
-    RivalFacts, RoundFacts, RoundModel, Segments, Told, Unneeded, Worse,
+    FileErrors, FileShare, FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter,
+    RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments, Told, Unneeded, Worse,
 };
 use serde::Serialize;
 
@@ -117,6 +117,8 @@ struct RoundPart<'a> {
     coefficients: Vec<Coefficient<'a>>,
     p: Option<f64>,
     explained: f64,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    explained_by_file: &'a [FileShare],
     alternatives: Vec<Rival<'a>>,
     experiment: Option<&'a Experiment>,
     rmse_before: Segments,
@@ -233,6 +235,7 @@ impl<'a> From<&'a RoundFacts> for RoundPart<'a> {
             coefficients: coefficients.iter().map(Coefficient::from).collect(),
             p: round.p,
             explained: round.explained,
+            explained_by_file: &round.by_file,
             alternatives: round.rivals.iter().map(Rival::from).collect(),
             experiment: round.experiment.as_ref(),
             rmse_before: round.before,

@@ -2,7 +2,9 @@
 
 use super::layout::{block, Width};
 use super::words::{estimate, table};
-use bowden_lab::facts::{across, number, Across, Facts, FinalFacts, Grade, HeldOutOf, RecordFacts};
+use bowden_lab::facts::{
+    across, number, Across, Facts, FinalFacts, Grade, HeldOutOf, RecordFacts, RoundFacts,
+};
 
 /// Maximum number of files or stretches that are listed; the JSON has all.
 pub(super) const LISTED: usize = 3;
@@ -80,17 +82,39 @@ pub(super) fn errors(facts: &Facts) -> String {
     out + "\n"
 }
 
-/// What each file says by itself of the missing mechanisms; empty for a single record.
+/// What each file says by itself of the missing mechanisms, and the files in which a term does not lower
+/// the error; empty for a single record.
 pub(super) fn alone(facts: &Facts, width: Width) -> String {
     let mut out = String::new();
     let lines = across(&facts.lacks, &facts.files_alone)
         .into_iter()
         .filter(|one| !one.files.is_empty());
-    block(&mut out, width, "Files", lines.map(|one| words(&one)));
+    let terms = facts.rounds.iter().filter_map(not_everywhere);
+    block(
+        &mut out,
+        width,
+        "Files",
+        lines.map(|one| words(&one)).chain(terms),
+    );
     if !out.is_empty() {
         out.push('\n');
     }
     out
+}
+
+/// "creep(x): does not lower the error in b.csv".
+fn not_everywhere(round: &RoundFacts) -> Option<String> {
+    let files = round.by_file.iter().filter(|file| file.share <= 0.0);
+    let files: Vec<&str> = files.map(|file| file.path.as_str()).collect();
+    let title = &round.title;
+    match files.len() {
+        0 => None,
+        n if n > LISTED => Some(format!("{title}: does not lower the error in {n} files")),
+        _ => Some(format!(
+            "{title}: does not lower the error in {}",
+            files.join(", ")
+        )),
+    }
 }
 
 /// "friction over the velocity of x: 2 of 3 files support it alone, 1 with high confidence; not

@@ -69,6 +69,30 @@ pub fn nrmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErr
     })
 }
 
+/// What a term removes in a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FileShare {
+    /// The file.
+    pub path: String,
+    /// Share of the squared error on its part of the fit segment that the term removes; below zero
+    /// where it adds to the error.
+    pub share: f64,
+}
+
+/// What one model removes of the squared error of another one, in each file of which the fit sees
+/// something; empty for a single record.
+#[must_use]
+pub fn removed(data: &Prepared, before: &Solution, after: &Solution) -> Vec<FileShare> {
+    let of = |solution| rmse_by_file(data, solution).unwrap_or_default();
+    let pairs = of(before).into_iter().zip(of(after));
+    let share = |(before, after): (FileErrors, FileErrors)| {
+        let share = 1.0 - (after.fit? / before.fit?).powi(2);
+        let path = after.path;
+        Some(FileShare { path, share })
+    };
+    pairs.filter_map(share).collect()
+}
+
 /// A file whose held-out error the final model raises.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worse {

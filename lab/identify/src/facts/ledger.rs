@@ -292,11 +292,13 @@ fn rounds(
         Detail::EachRound => fits(data, ledger, done),
     }
     .into_iter();
-    let rounds = ledger.rounds.iter().chain(&ledger.beyond);
-    rounds
-        .map(|round| {
+    let rounds = || ledger.rounds.iter().chain(&ledger.beyond);
+    let before = std::iter::once(&ledger.declared).chain(rounds().map(|round| &round.solution));
+    before
+        .zip(rounds())
+        .map(|(before, round)| {
             let size = size(data, shown, &its.parameters, round);
-            RoundFacts::new(data, done, size, round, fits.next())
+            RoundFacts::new(data, done, size, (before, round), fits.next())
         })
         .collect()
 }

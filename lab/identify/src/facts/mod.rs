@@ -40,7 +40,7 @@ pub use source::{read_with_source, Source};
 pub use crate::check::{
     Errors, Fitted, Line, Otherwise, Outside, Verdict as CheckVerdict, HOLDS, NOISE,
 };
-pub use crate::conclude::by_file::{FileErrors, Worse};
+pub use crate::conclude::by_file::{FileErrors, FileShare, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::finding::{Finding, Severity, Told};
 pub use crate::conclude::intervals::{Parameter, Refusal};

@@ -1,6 +1,7 @@
 //! One round of the search: the added effect, its tests, the model after it.
 
 use super::record::channel_name;
+use crate::conclude::by_file::{removed, FileShare};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::intervals::{parameters, term_name, term_title, Parameter};
 use crate::conclude::verdict::raises;
@@ -31,6 +32,8 @@ pub struct RoundFacts {
     pub p: Option<f64>,
     /// Share of the squared error on the fit segment that the round removed.
     pub explained: f64,
+    /// The same for each of several files; empty for a single record.
+    pub by_file: Vec<FileShare>,
     /// Number of blocks, of [`BLOCKS`](super::BLOCKS), on which it lowers the error.
     pub blocks_better: usize,
     /// Effects that explain the same as well.
@@ -147,7 +150,7 @@ impl RoundFacts {
         data: &Prepared,
         done: &FinalFit,
         size: Size,
-        round: &Round,
+        (before, round): (&Solution, &Round),
         fit: Option<RoundFit>,
     ) -> Self {
         let rivals = round.rivals.iter().map(|r| RivalFacts {
@@ -164,6 +167,7 @@ impl RoundFacts {
             size,
             p: round.p,
             explained: round.explained,
+            by_file: removed(data, before, &round.solution),
             blocks_better: round.blocks_better,
             rivals: rivals.collect(),
             experiment: separate(data, round),

@@ -2,7 +2,7 @@
 
 use crate::joint::bent;
 use crate::rig::{on, Files};
-use bowden_lab::facts::{across, close, Asked, Close, Facts, Grade};
+use bowden_lab::facts::{across, close, Asked, Close, Facts, Grade, RoundFacts};
 use bowden_lab::model::mechanism::Mechanism;
 use bowden_synth::{Base, Mode, Planted, Recipe};
 
@@ -32,4 +32,31 @@ fn what_every_file_shows_is_in_each_file_alone() {
         assert_eq!(own, [(Mechanism::Friction, Grade::High)], "{}", file.path);
     }
     assert_eq!(facts.files_alone.len(), 2);
+    let by_file = &facts.rounds[0].by_file;
+    assert_eq!(by_file.len(), 2);
+    // As much as the friction is larger than the noise, in either file.
+    assert!(by_file.iter().all(|file| file.share > 0.5), "{by_file:?}");
+}
+
+/// One conduit was dry: the joint term adds to the error of its file. The fourth file is held out.
+#[test]
+#[ignore = "slow: bash .ci/run identification"]
+fn a_file_in_which_a_term_does_not_help_is_told() {
+    let with = |gain, seed| Recipe {
+        effects: vec![Planted::with_gain("viscous", gain)],
+        ..on(Base::CABLE, Mode::Torque, seed)
+    };
+    let gains = [-0.8, -0.8, 0.0, -0.8];
+    let recipes: Vec<Recipe> = gains
+        .into_iter()
+        .zip(15..)
+        .map(|(g, s)| with(g, s))
+        .collect();
+    let facts = facts(&Files::new(&recipes));
+    let of = |round: &RoundFacts| round.by_file.iter().map(|file| file.share).collect();
+    let all: Vec<Vec<f64>> = facts.rounds.iter().map(of).collect();
+    let [first, second, third] = all[0][..] else {
+        panic!("{all:?}");
+    };
+    assert!(first > 0.0 && second > 0.0 && third < 0.0, "{all:?}");
 }
