@@ -1,5 +1,6 @@
 //! The bounded-time step (derived in the module above).
 
+use super::law;
 use super::number::Number;
 use crate::Real;
 use num_traits::{One, Zero};
@@ -127,7 +128,7 @@ pub(super) fn follow_powered<N: Number>(zeta: N, p: N, powered: N, shape: &Const
 #[inline]
 pub(super) fn load<N: Number>(zeta: N, p: N, powered: N, n: N) -> N {
     let one = N::Float::one();
-    let f = (-(zeta * powered)).shift(one);
+    let f = law::loading(zeta * powered);
     if f.value() > N::Float::zero() {
         let room = (-zeta).shift(one);
         let rate = f / room;
@@ -183,7 +184,7 @@ pub(super) fn unload<N: Number>(a: N, p: N, powered: N, shape: &Constants<N>) ->
     let (of, one) = (N::Float::from_f64, N::Float::one());
     let n = shape.n;
     let x = shape.c * (a * powered);
-    let (f, nx) = (x.shift(one), n * x);
+    let (f, nx) = (law::unloading(x), n * x);
     let is_steep = nx.value() > of(STEEP);
     let (share, inverse) = if is_steep {
         (steep_share(f, shape), f)

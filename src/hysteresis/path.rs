@@ -1,5 +1,6 @@
 //! The splitting step, for any path length (derived in the module above).
 
+use super::law;
 use super::number::Number;
 use crate::Real;
 use num_traits::{One, Zero};
@@ -57,7 +58,7 @@ pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (
     let inverse = N::constant(N::Float::one()) / a;
     let powered = c * ((n.shift(-N::Float::one())) * a.ln()).exp();
     let x = powered * a;
-    let f = x.shift(N::Float::one());
+    let f = law::unloading(x);
     let half_slope = (n * powered).scale(N::Float::from_f64(0.5));
     // The relative change of a over the path, times n: x changes by its exponential.
     let bend = n * f * inverse;
@@ -123,7 +124,7 @@ pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
         return (saturate(zeta, room, p, n), end);
     }
     let powered = (n.shift(-one) * zeta.ln()).exp();
-    let f = (-(zeta * powered)).shift(one);
+    let f = law::loading(zeta * powered);
     let half_slope = (n * powered).scale(N::Float::from_f64(0.5));
     let concave = n.shift(-one) * f / zeta;
     let rate = f / room;

@@ -3,7 +3,7 @@
 use super::bounded::{self, Constants};
 use super::number::Dual;
 use super::state::{BoucWenState, Sensitivity};
-use super::{closed, path, stages};
+use super::{closed, law, path, stages};
 use crate::error::{above_zero, must_be_finite};
 use crate::{Error, Real};
 use core::fmt;
@@ -296,12 +296,7 @@ impl<T: Real> BoucWen<T> {
         } else {
             a.pow(self.constants.n)
         };
-        let f = if zeta < T::zero() {
-            T::one() + self.c() * power
-        } else {
-            T::one() - power
-        };
-        self.rho * f
+        self.rho * law::f(zeta, self.c(), power)
     }
 
     /// Advances by the input of one sample [input unit] and returns eta in [-1, 1].
@@ -397,12 +392,8 @@ impl<T: Real> Way<'_, T> {
         if !T::SHORT {
             return shape.slope(self.zeta, T::ONE);
         }
-        let f = if self.zeta < T::ZERO {
-            T::ONE - shape.c() * (self.zeta * self.powered)
-        } else {
-            T::ONE - self.zeta * self.powered
-        };
-        shape.rho * f
+        let power = self.zeta.abs() * self.powered;
+        shape.rho * law::f(self.zeta, shape.c(), power)
     }
 }
 

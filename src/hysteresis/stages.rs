@@ -4,6 +4,7 @@
 //! lies in `[zeta, 1]` for every `m >= 0`. Then `dm/dp = f/(1 - zeta)·(1 + m)`, and a
 //! Runge-Kutta step of fourth order builds `m` from four slopes, none negative.
 
+use super::law;
 use super::path::{shorter, MOST_PARTS, NEAR_ZERO, SATURATING};
 use crate::Real;
 
@@ -60,11 +61,8 @@ fn right_side<T: Real>(zeta: T, c: T, n: T) -> (T, T) {
     } else {
         T::zero()
     };
-    if zeta < T::zero() {
-        (T::one() + c * power, c * power)
-    } else {
-        (T::one() - power, power)
-    }
+    let beyond = if zeta < T::zero() { c * power } else { power };
+    (law::f(zeta, c, power), beyond)
 }
 
 /// The part of the path that one step of four stages covers accurately.

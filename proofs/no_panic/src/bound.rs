@@ -12,7 +12,10 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(bound_plant_between, Interval::<T>::between(any(), any()));
     let interval = black_box(Interval::<T>::exactly(any()));
     never_panics!(bound_plant_magnitude, interval.magnitude());
-    never_panics!(bound_plant_max_distance_from, interval.max_distance_from(any()));
+    never_panics!(
+        bound_plant_max_distance_from,
+        interval.max_distance_from(any())
+    );
     never_panics!(bound_plant_new, Plant::<T, 2>::new(any(), any()));
 
     let (law, plant) = (law::<T>()?, black_box(Plant::<T, 2>::new(any(), any())));

@@ -1,5 +1,6 @@
 //! Adaptation of one estimate: gain, leakage, bounds.
 
+use crate::control::law;
 use crate::signal::Compensated;
 use crate::Real;
 
@@ -178,8 +179,7 @@ impl<T: Real> Estimator<T> {
     #[inline]
     pub(super) fn increment(&self, distance: T, dt: T, v: T) -> T {
         let sigma = self.leakage.rate_at(distance);
-        let rate = self.gain * v - sigma * distance;
-        dt * rate / (T::one() + dt * sigma)
+        law::estimate_increment(dt, self.gain, v, sigma, distance)
     }
 
     /// Whether updates can produce this estimate.

@@ -1,6 +1,7 @@
 //! The exact error recursion of the first-order form on a static plant.
 
 use super::SmoothSign;
+use crate::control::law;
 use crate::Real;
 
 /// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
@@ -68,7 +69,7 @@ impl<T: Real> LagRecursion<T> {
         let ds = self.lambda * (by.w - by.g * pull) - by.g * at.z;
         ErrorState {
             s: at.s + dt * ds - by.xi,
-            z: at.z + dt * (at.s - self.lambda * at.z),
+            z: at.z + dt * law::z_rate(at.s, self.lambda, at.z),
         }
     }
 }

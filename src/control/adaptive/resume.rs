@@ -2,7 +2,7 @@
 
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use crate::control::status::Held;
-use crate::control::{Fault, Status};
+use crate::control::{law, Fault, Status};
 use crate::signal::{clamp, Compensated, DerivativeState};
 use crate::Real;
 
@@ -141,7 +141,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     ) -> T {
         let settings = &self.settings;
         let mut terms = AdaptiveTerms {
-            error: input.measured - input.reference,
+            error: law::error(input.measured, input.reference),
             ..AdaptiveTerms::at_rest(state)
         };
         // ubar falls with z, and is linear in z but for the smooth sign, which lies
@@ -165,7 +165,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let mut z = linear;
         for _ in 0..halvings {
             z = low + (high - low) * T::from_f64(0.5);
-            let s = terms.error + settings.lambda * z;
+            let s = law::filtered_error(terms.error, settings.lambda, z);
             // (linear - z)·slope is the excess of the linear part over the wanted command.
             let sign = settings.smooth_sign.of(s / settings.epsilon);
             if (linear - z) * slope > terms.delta_hat * sign {

@@ -1,6 +1,6 @@
 //! The smooth sign of the law: `tanh`, as in Nguyen et al. (2018), or a clamped line.
 
-use crate::signal::clamp;
+use crate::control::law;
 use crate::Real;
 
 /// The smooth sign `T(x)` of (23) and (25), with `x = s/epsilon`.
@@ -36,8 +36,8 @@ impl SmoothSign {
     #[must_use]
     pub fn of<T: Real>(self, x: T) -> T {
         match self {
-            Self::Tanh => x.confined_tanh(),
-            Self::Clamp => clamp(x, -T::one(), T::one()),
+            Self::Tanh => law::smooth_sign(x),
+            Self::Clamp => law::clamped_sign(x),
         }
     }
 

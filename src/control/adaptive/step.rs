@@ -1,10 +1,11 @@
-//! One step of the law, in the order that the theorems assume.
+//! One step of the law, in the order that the theorems assume; its equations are in
+//! [`law`].
 
 use super::state::End;
 use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 use super::{Form, OnMissing};
 use crate::control::status::{fault_of_dt, unless_finite, Latch};
-use crate::control::{Fault, Output, Status};
+use crate::control::{law, Fault, Output, Status};
 use crate::error::{is_usable, rarely};
 use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
@@ -140,7 +141,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let mut z = state.z;
         if !z_waits {
             let limit = settings.z_limit;
-            z = z.plus(dt * terms.error).within(-limit, limit);
+            let increment = law::z_increment(dt, terms.error);
+            z = z.plus(increment).within(-limit, limit);
             all += z.carry;
         }
         let mut estimates = (state.beta, state.delta, state.theta);
@@ -317,7 +319,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         input: &AdaptiveInput<T, N>,
     ) -> Evaluated<T, N> {
         let settings = &self.settings;
-        let error = input.measured - input.reference;
+        let error = law::error(input.measured, input.reference);
         let mut rate = state.error_rate;
         if let Form::AsPublished { time_constant } = settings.form {
             let filter = Derivative::assumed(time_constant);
@@ -331,15 +333,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         if let Form::AsPublished { .. } = settings.form {
             terms.error_rate = rate.rate();
         }
-        terms.s = error + settings.lambda * terms.z;
+        terms.s = law::filtered_error(error, settings.lambda, terms.z);
         terms.smooth_sign = settings.smooth_sign.of(terms.s / settings.epsilon);
         terms.virtual_command = self.virtual_command(&terms, input);
-        let wanted = terms.beta_hat * terms.virtual_command;
+        let wanted = law::command(terms.beta_hat, terms.virtual_command);
         let lag = match settings.form {
             Form::AsPublished { .. } => Compensated::new(wanted),
             Form::FirstOrder { .. } => {
                 let way = wanted - state.lag.value;
-                state.lag.plus(input.dt * settings.lambda * way)
+                let increment = law::first_order_increment(input.dt, settings.lambda, way);
+                state.lag.plus(increment)
             }
         };
         terms.law = lag.value;
@@ -358,22 +361,21 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         terms: &AdaptiveTerms<T, N>,
         input: &AdaptiveInput<T, N>,
     ) -> T {
-        let settings = &self.settings;
-        let mut compensation = T::zero();
+        let (settings, y_r) = (&self.settings, input.reference);
+        let mut theta_x = T::zero();
         for (theta, x) in terms.theta_hat.iter().zip(&input.regressors) {
-            compensation += *theta * *x;
+            theta_x += *theta * *x;
         }
-        let proportional = -settings.gain * terms.s + input.reference;
+        let (z, lambda) = (terms.z, settings.lambda);
+        let proportional = law::proportional(settings.gain, terms.s, y_r);
         let damped = match settings.form {
-            Form::AsPublished { .. } => {
-                proportional - (terms.error_rate + terms.z) / settings.lambda
-            }
+            Form::AsPublished { .. } => law::damped(proportional, z, terms.error_rate, lambda),
             Form::FirstOrder { .. } => {
-                let rate = (input.next_reference - input.reference) / input.dt;
-                proportional + (rate - terms.z) / settings.lambda
+                let y_r_rate = (input.next_reference - y_r) / input.dt;
+                law::first_order_damped(proportional, z, y_r_rate, lambda)
             }
         };
-        damped + compensation - terms.delta_hat * terms.smooth_sign
+        law::virtual_command(damped, theta_x, terms.delta_hat, terms.smooth_sign)
     }
 
     /// (24)-(26).
@@ -385,15 +387,15 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         terms: &AdaptiveTerms<T, N>,
     ) -> Estimates<T, N> {
         let settings = &self.settings;
-        let (dt, pull) = (input.dt, settings.lambda * terms.s);
-        let drive = -pull * terms.virtual_command;
-        let beta = settings.beta.update(state.beta, dt, drive);
-        let drive = pull * terms.smooth_sign;
-        let delta = settings.delta.update(state.delta, dt, drive);
+        let (dt, lambda_s) = (input.dt, settings.lambda * terms.s);
+        let v = law::beta_excitation(lambda_s, terms.virtual_command);
+        let beta = settings.beta.update(state.beta, dt, v);
+        let v = law::delta_excitation(lambda_s, terms.smooth_sign);
+        let delta = settings.delta.update(state.delta, dt, v);
         let mut theta = state.theta;
         let each = theta.iter_mut().zip(&settings.theta);
         for ((estimate, estimator), x) in each.zip(&input.regressors) {
-            *estimate = estimator.update(*estimate, dt, -pull * *x);
+            *estimate = estimator.update(*estimate, dt, law::theta_excitation(lambda_s, *x));
         }
         (beta, delta, theta)
     }
