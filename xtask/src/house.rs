@@ -1,0 +1,258 @@
+//! The counts of the repository, each with its goal.
+
+use crate::source;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// One count.
+#[derive(Debug, PartialEq)]
+pub struct Count {
+    what: String,
+    number: usize,
+    goal: Option<usize>,
+}
+
+impl Count {
+    fn new(what: impl Into<String>, number: usize, goal: Option<usize>) -> Self {
+        let what = what.into();
+        Self { what, number, goal }
+    }
+}
+
+/// What is counted in the files of a folder.
+#[derive(Debug, Default, Clone, Copy)]
+struct Code {
+    lines: usize,
+    constants: usize,
+}
+
+/// Every count of the repository in this folder.
+pub fn counts(root: &Path) -> io::Result<Vec<Count>> {
+    let core = code(&root.join("src"))?;
+    let bound = code(&root.join("src/bound"))?;
+    let mut counts = vec![
+        Count::new("code of the core, src/", core.lines, Some(8_500)),
+        Count::new("  of this src/bound/", bound.lines, Some(2_600)),
+        Count::new(
+            "interface, docs/public-api/bowden.txt",
+            lines(&root.join("docs/public-api/bowden.txt"))?,
+            Some(750),
+        ),
+    ];
+    let mut constants = 0;
+    for (room, found) in rooms(root)? {
+        constants += found.constants;
+        let what = format!("code of {room}, {} constants", found.constants);
+        counts.push(Count::new(what, found.lines, None));
+    }
+    counts.push(Count::new(
+        "numeric constants of lab/",
+        constants,
+        Some(200),
+    ));
+    let (tests, text) = tests(root)?;
+    counts.push(Count::new("code of tests", tests, None));
+    counts.push(Count::new("lines of tests", text, Some(18_000)));
+    let (longest, file) = longest(root)?;
+    let what = format!("longest file, {}", relative(root, &file));
+    counts.push(Count::new(what, longest, Some(500)));
+    counts.push(Count::new(
+        "lines of .ci/run",
+        lines(&root.join(".ci/run"))?,
+        Some(150),
+    ));
+    Ok(counts)
+}
+
+/// A table of three columns.
+pub fn table(counts: &[Count]) -> String {
+    let mut text =
+        String::from("count                                                      now     goal\n");
+    for Count { what, number, goal } in counts {
+        let goal = goal.map_or_else(|| "–".to_owned(), |goal| format!("≤ {goal}"));
+        let _ = writeln!(text, "{what:<52} {number:>9} {goal:>8}");
+    }
+    text
+}
+
+/// The folders of the lab with their code: each crate, and each module of `lab/identify`.
+fn rooms(root: &Path) -> io::Result<BTreeMap<String, Code>> {
+    let mut rooms = BTreeMap::new();
+    for krate in folders(&root.join("lab"))? {
+        let src = krate.join("src");
+        if !src.is_dir() {
+            continue;
+        }
+        rooms.insert(relative(root, &krate), code(&src)?);
+        if krate.ends_with("identify") {
+            // The modules take from their crate, so that nothing counts twice.
+            let mut rest = code(&src)?;
+            for module in folders(&src)? {
+                let found = code(&module)?;
+                rest.lines -= found.lines;
+                rest.constants -= found.constants;
+                rooms.insert(relative(root, &module), found);
+            }
+            rooms.insert(relative(root, &krate), rest);
+        }
+    }
+    Ok(rooms)
+}
+
+/// Code lines and numeric constants of the files in a folder, without unit tests.
+fn code(folder: &Path) -> io::Result<Code> {
+    let mut of_file = BTreeMap::new();
+    let mut test_files = Vec::new();
+    for file in files(folder)? {
+        let source = source::read(&fs::read_to_string(&file)?);
+        // `mod x;` in `mod.rs` or `lib.rs` is `x.rs` next to it, in `y.rs` it is `y/x.rs`.
+        let stem = file.file_stem().and_then(|stem| stem.to_str());
+        let inside = match (file.parent(), stem) {
+            (Some(parent), Some("mod" | "lib" | "main")) => parent.to_owned(),
+            _ => file.with_extension(""),
+        };
+        test_files.extend(
+            source
+                .test_modules
+                .iter()
+                .map(|name| inside.join(format!("{name}.rs"))),
+        );
+        of_file.insert(file, source);
+    }
+    let mut found = Code::default();
+    for (_, source) in of_file
+        .iter()
+        .filter(|(file, _)| !test_files.contains(file))
+    {
+        found.lines += source.code.len();
+        found.constants += source
+            .code
+            .iter()
+            .filter(|line| is_numeric_constant(line))
+            .count();
+    }
+    Ok(found)
+}
+
+/// Whether a line declares a constant that is a number, or an array or tuple of numbers.
+fn is_numeric_constant(line: &str) -> bool {
+    const NUMBERS: [&str; 14] = [
+        "f32", "f64", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64",
+        "i128", "isize",
+    ];
+    let line = line.trim_start();
+    let line = line.strip_prefix("pub").map_or(line, |rest| {
+        let rest = rest
+            .strip_prefix('(')
+            .and_then(|rest| rest.split_once(')'))
+            .map_or(rest, |(_, rest)| rest);
+        rest.trim_start()
+    });
+    let declared = line
+        .strip_prefix("const ")
+        .and_then(|rest| rest.split_once(": "));
+    let Some((_, kind)) = declared.filter(|(name, _)| !name.contains([' ', '('])) else {
+        return false;
+    };
+    let first = kind.trim_start_matches(['[', '(', '&']);
+    let word: String = first.chars().take_while(|c| c.is_alphanumeric()).collect();
+    NUMBERS.contains(&word.as_str())
+}
+
+/// Code lines and all lines of the integration tests.
+fn tests(root: &Path) -> io::Result<(usize, usize)> {
+    let mut folders_of_tests = vec![root.join("tests")];
+    for krate in folders(&root.join("lab"))? {
+        folders_of_tests.push(krate.join("tests"));
+    }
+    let (mut of_code, mut of_text) = (0, 0);
+    for folder in folders_of_tests.iter().filter(|folder| folder.is_dir()) {
+        for file in files(folder)? {
+            of_code += source::read(&fs::read_to_string(&file)?).code.len();
+            of_text += lines(&file)?;
+        }
+    }
+    Ok((of_code, of_text))
+}
+
+/// The Rust file with the most lines.
+fn longest(root: &Path) -> io::Result<(usize, PathBuf)> {
+    let mut longest = (0, PathBuf::new());
+    for file in files(root)? {
+        longest = longest.max((lines(&file)?, file));
+    }
+    Ok(longest)
+}
+
+fn lines(file: &Path) -> io::Result<usize> {
+    Ok(fs::read_to_string(file)?.lines().count())
+}
+
+/// The folders in a folder, in order of their names.
+fn folders(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Every Rust file below a folder, without what cargo builds and what is hidden.
+fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let (mut found, mut left) = (Vec::new(), vec![folder.to_owned()]);
+    while let Some(folder) = left.pop() {
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            let name = path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            if path.is_dir() && name != "target" && !name.starts_with('.') {
+                left.push(path);
+            } else if name.ends_with(".rs") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn relative(root: &Path, path: &Path) -> String {
+    path.strip_prefix(root)
+        .unwrap_or(path)
+        .display()
+        .to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_numeric_constant;
+
+    #[test]
+    fn a_numeric_constant_is_one_of_a_number() {
+        for line in [
+            "const A: f64 = 1.0;",
+            "    pub(super) const B: [usize; 2] = [",
+            "pub const C: (f64, f64) =",
+        ] {
+            assert!(is_numeric_constant(line), "{line}");
+        }
+        for line in [
+            "const A: &str = x;",
+            "let b: f64 = 1.0;",
+            "const fn f(x: f64) {",
+            "const D: Kind = Kind::A;",
+        ] {
+            assert!(!is_numeric_constant(line), "{line}");
+        }
+    }
+}
