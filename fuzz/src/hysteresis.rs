@@ -1,7 +1,7 @@
 //! The Bouc-Wen state.
 
 use crate::numbers::Numbers;
-use bowden::hysteresis::{Actuator, BoucWen, BoucWenState, Sensitivity, Textbook};
+use bowden::hysteresis::{BoucWenState, Sensitivity};
 use bowden::Real;
 
 /// Whatever the shape and the input: eta stays within ±1, moves with the input, and a bad
@@ -12,36 +12,6 @@ pub fn check(data: &[u8]) {
         Some(true) => run::<f32>(&mut from),
         _ => run::<f64>(&mut from),
     };
-}
-
-fn shape<T: Real>(from: &mut Numbers) -> Option<BoucWen<T>> {
-    match from.byte()? % 4 {
-        0 => {
-            let textbook: Textbook<T> = Textbook {
-                a: from.any()?,
-                beta: from.any()?,
-                gamma: from.any()?,
-                n: from.any()?,
-                alpha: from.any()?,
-                k: from.any()?,
-                d: from.any()?,
-            };
-            let report = BoucWen::from_textbook(textbook).ok()?;
-            let found = report.normalised;
-            assert!(found.kappa_x.is_finite() && found.kappa_eta.is_finite());
-            Some(found.shape)
-        }
-        1 => {
-            let actuator: Actuator<T> = Actuator {
-                yield_torque: from.any()?,
-                stiffness: from.any()?,
-                post_yield_ratio: from.any()?,
-                knee: from.any()?,
-            };
-            Some(BoucWen::from_actuator(actuator).ok()?.shape)
-        }
-        _ => from.shape(),
-    }
 }
 
 /// Whether `next` lies where a change of the input may take eta.
@@ -57,7 +27,9 @@ fn follows<T: Real>(eta: T, change: T, next: T) -> bool {
 }
 
 fn run<T: Real>(from: &mut Numbers) -> Option<()> {
-    let shape = shape::<T>(from)?;
+    // A byte of the seeds that selects nothing.
+    from.byte()?;
+    let shape = from.shape::<T>()?;
     let start = from.any()?;
     let mut state = BoucWenState::with_eta(start).unwrap_or_default();
     let mut sensitivity = Sensitivity::start(state.eta());

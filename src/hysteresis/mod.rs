@@ -119,8 +119,6 @@ mod proofs;
 mod shape;
 mod stages;
 mod state;
-mod textbook;
 
 pub use shape::BoucWen;
 pub use state::{BoucWenState, Sensitivity};
-pub use textbook::{Actuator, Class, Loop, Textbook, TextbookReport};

@@ -6,10 +6,9 @@
 mod bounded;
 mod law;
 mod sampled;
-mod textbook;
 
 use approx::assert_abs_diff_eq;
-use bowden::hysteresis::{Actuator, BoucWen, BoucWenState, Class, Sensitivity, Textbook};
+use bowden::hysteresis::{BoucWen, BoucWenState, Sensitivity};
 use bowden::Error;
 use proptest::prelude::*;
 use std::f64::consts::PI;

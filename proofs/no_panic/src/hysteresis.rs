@@ -54,30 +54,5 @@ pub fn all<T: Real>() -> Option<()> {
         law::eta_rate::<T>(any(), any(), any(), any(), any())
     );
     never_panics!(hysteresis_law_f, law::f::<T>(any(), any(), any()));
-
-    let textbook = Textbook::<T> {
-        a: any(),
-        beta: any(),
-        gamma: any(),
-        n: any(),
-        alpha: any(),
-        k: any(),
-        d: any(),
-    };
-    never_panics!(hysteresis_textbook_class, textbook.class());
-    never_panics!(
-        hysteresis_textbook_from_textbook,
-        BoucWen::from_textbook(textbook)
-    );
-    let actuator = Actuator::<T> {
-        yield_torque: any(),
-        stiffness: any(),
-        post_yield_ratio: any(),
-        knee: any(),
-    };
-    never_panics!(
-        hysteresis_textbook_from_actuator,
-        BoucWen::from_actuator(actuator)
-    );
     Some(())
 }
