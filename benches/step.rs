@@ -112,9 +112,6 @@ fn accuracy(_: &mut Criterion) {
     row("step in bounded time, f64", general, |s, eta, dx| {
         s.advance_bounded(eta, dx)
     });
-    row("four stages, f64", general, |s, eta, dx| {
-        s.advance_four_stage(eta, dx)
-    });
     row("closed form n = 2, f64", 2.0, |s, eta, dx| {
         s.advance(eta, dx)
     });
@@ -153,9 +150,7 @@ fn jump_error(n: f64, sigma: f64, size: f64) -> (f64, f64) {
             .wrapping_add(1_442_695_040_888_963_407);
         let now = size * (2.0 * ((state >> 11) as f64 / (1_u64 << 53) as f64) - 1.0);
         let step = short.advance(eta as f32, (now - last) as f32);
-        eta = (0..30).fold(eta, |eta, _| {
-            exact.advance_four_stage(eta, (now - last) / 30.0)
-        });
+        eta = (0..30).fold(eta, |eta, _| exact.advance_split(eta, (now - last) / 30.0));
         let here = (f64::from(step) - eta).abs();
         most = most.max(here);
         sum += here;
@@ -209,9 +204,6 @@ fn speed(c: &mut Criterion) {
     });
     time::<f32>(c, "step that splits, f32", 3.871, |s, eta, dx| {
         s.advance_split(eta, dx)
-    });
-    time::<f64>(c, "four stages, f64", 3.871, |s, eta, dx| {
-        s.advance_four_stage(eta, dx)
     });
     time::<f64>(c, "closed form n = 2, f64", 2.0, |s, eta, dx| {
         s.advance(eta, dx)

@@ -202,10 +202,6 @@ const STEPS: &[(&str, &str, Run)] = &[
         let shape = shape::<f64>()?;
         hysteresis(n, |eta, change| shape.advance(eta, change))
     }),
-    ("Bouc-Wen, four stages, f64", "bowden", |n| {
-        let shape = shape::<f64>()?;
-        hysteresis(n, |eta, change| shape.advance_four_stage(eta, change))
-    }),
     (
         "Bouc-Wen, Runge-Kutta of fourth order, f64",
         "libm's power",

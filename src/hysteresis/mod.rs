@@ -75,7 +75,6 @@
 //! |---|---|
 //! | splitting step | 1.0e-5 |
 //! | bounded-time step | 2.4e-4 |
-//! | four stages | 5.0e-8 |
 //! | `f32` as shipped | 2.5e-4 |
 //! | `f32` as shipped, on the paper's walk | 3.4e-4; the rounding of the input alone gives the same error |
 //!
@@ -117,7 +116,6 @@ mod path;
 #[path = "../../proofs/hysteresis.rs"]
 mod proofs;
 mod shape;
-mod stages;
 mod state;
 
 pub use shape::BoucWen;

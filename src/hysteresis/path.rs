@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 
 /// A path after which the state is saturated for any start: unloading ends within 1, and
 /// `1 - e^(-39)` rounds to 1 in `f64`.
-pub(super) const SATURATING: f64 = 40.0;
+const SATURATING: f64 = 40.0;
 /// A state nearer to zero than this counts as zero: there `f = 1` to rounding.
 pub(super) const NEAR_ZERO: f64 = 1e-9;
 /// Where `n·(1 - zeta)` is below this, the rest of the path has a closed form.
@@ -15,7 +15,7 @@ const NEAR_SATURATION: f64 = 0.03;
 /// Local accuracy of a part of a long path; the error grows with its fourth power.
 const TOLERANCE: f64 = 0.25;
 /// More parts than any path takes for `sigma` up to 1e30; the last part takes the rest.
-pub(super) const MOST_PARTS: u32 = 512;
+const MOST_PARTS: u32 = 512;
 
 /// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`.
 ///
@@ -200,7 +200,7 @@ fn saturate<N: Number>(zeta: N, w: N, p: N, n: N) -> N {
 
 /// The longest part of `p` with `(part·rate)⁴·weight <= TOLERANCE⁴`.
 #[inline]
-pub(super) fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn() -> N) -> N {
+fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn() -> N) -> N {
     let limit = N::Float::from_f64(TOLERANCE);
     let stretch = p.value() * rate.value();
     let square = stretch * stretch;
@@ -217,7 +217,7 @@ pub(super) fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn(
 
 /// The number if it is positive, otherwise zero (also for NaN).
 #[inline]
-pub(super) fn positive<N: Number>(x: N) -> N {
+fn positive<N: Number>(x: N) -> N {
     if x.value() > N::Float::zero() {
         x
     } else {

@@ -3,7 +3,7 @@
 use super::bounded::{self, Constants};
 use super::number::Dual;
 use super::state::{BoucWenState, Sensitivity};
-use super::{closed, law, path, stages};
+use super::{closed, law, path};
 use crate::error::{above_zero, must_be_finite};
 use crate::{Error, Real};
 use core::fmt;
@@ -200,18 +200,6 @@ impl<T: Real> BoucWen<T> {
             } else {
                 path::follow(zeta, p, c, self.constants.n)
             }
-        })
-    }
-
-    /// The state after one increment, by a four-stage method of fourth order.
-    ///
-    /// A long increment is split; each part needs four powers. For reference runs; firmware uses
-    /// [`advance`](Self::advance).
-    #[inline]
-    #[must_use]
-    pub fn advance_four_stage(&self, eta: T, input_change: T) -> T {
-        self.along(eta, input_change, |zeta, p, c| {
-            stages::follow(zeta, p, c, self.constants.n)
         })
     }
 

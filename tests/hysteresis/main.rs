@@ -102,19 +102,6 @@ fn the_step_follows_the_papers_records_within_its_documented_error() {
 }
 
 #[test]
-fn four_stages_follow_the_papers_records_like_a_fourth_order_method() {
-    for set in SETS {
-        for input in [sine as fn(f64) -> f64, walk] {
-            let error = record_error(set, input, |shape, eta, dx| {
-                shape.advance_four_stage(eta, dx)
-            });
-            // Measured at most 5.0e-8 N·m; a plain RK4 step has 2.8e-8.
-            assert!(error < 6e-8, "error {error:.2e} N·m");
-        }
-    }
-}
-
-#[test]
 fn single_precision_stays_within_a_thousandth_of_a_newton_metre() {
     for set in SETS {
         for input in [sine as fn(f64) -> f64, walk] {
@@ -145,11 +132,9 @@ fn any_jump_is_accurate_whatever_the_shape() {
                 let now = 32.0 * uniform.next() - 16.0;
                 // 20 000 parts: the fastest rate, 2·sigma·n·rho, times a part is 0.1 at most.
                 let reference = runge_kutta(&shape, eta, now - last, 20_000);
-                let four = shape.advance_four_stage(eta, now - last);
                 eta = shape.advance(eta, now - last);
-                // Measured 8e-4 (6e-3 N·m) at most over 35 000 jumps; four stages 2e-4.
+                // Measured 8e-4 (6e-3 N·m) at most over 35 000 jumps.
                 assert_abs_diff_eq!(eta, reference, epsilon = 1e-3);
-                assert_abs_diff_eq!(four, reference, epsilon = 2.5e-4);
                 last = now;
             }
         }
@@ -403,14 +388,13 @@ proptest! {
         changes in prop::collection::vec(prop::num::f32::ANY, 1..40),
     ) {
         let (double, single) = (shape(rho, sigma, n), single(rho, sigma, n));
-        let (mut a, mut b, mut c) = (eta, eta as f32, eta as f32);
+        let (mut a, mut b) = (eta, eta as f32);
         let mut s = Sensitivity::start(eta);
         for dx in changes {
             a = double.advance(a, f64::from(dx));
             b = single.advance(b, dx);
-            c = single.advance_four_stage(c, dx);
             s = double.advance_with_sensitivity(s, f64::from(dx));
-            prop_assert!(a.abs() <= 1.0 && b.abs() <= 1.0 && c.abs() <= 1.0 && s.eta.abs() <= 1.0);
+            prop_assert!(a.abs() <= 1.0 && b.abs() <= 1.0 && s.eta.abs() <= 1.0);
             prop_assert!(s.d_rho.is_finite() && s.d_sigma.is_finite());
             prop_assert!(s.d_n.is_finite() && s.d_eta0.is_finite());
         }

@@ -37,10 +37,6 @@ pub fn all<T: Real>() -> Option<()> {
         hysteresis_shape_advance_split,
         shape.advance_split(any(), any())
     );
-    never_panics!(
-        hysteresis_shape_advance_four_stage,
-        shape.advance_four_stage(any(), any())
-    );
     let sensitivity = black_box(Sensitivity::start(any()));
     never_panics!(
         hysteresis_shape_advance_with_sensitivity,
