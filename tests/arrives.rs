@@ -3,9 +3,7 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
-use bowden::signal::{
-    Guard, GuardState, Play, PlayState, Ramp, RampState, Rates, RatesState, RatesStatus,
-};
+use bowden::signal::{Play, PlayState, Ramp, RampState, Rates, RatesState, RatesStatus};
 use bowden::Real;
 use proptest::prelude::*;
 
@@ -195,17 +193,5 @@ proptest! {
             let input = start + sign * each * f64::from(k);
             prop_assert_eq!(play.step(&mut state, input), input - sign * half_width);
         }
-    }
-
-    /// The first good sample is taken, however many were bad.
-    #[test]
-    fn a_guard_takes_the_first_good_sample_after_any(before in before(), good in -50.0..50.0_f64) {
-        let guard = Guard::try_new(50.0).unwrap();
-        let mut state = GuardState::new(7.0);
-        for (sample, _) in before {
-            guard.step(&mut state, sample);
-        }
-        prop_assert_eq!(guard.step(&mut state, good), good);
-        prop_assert_eq!((state.good(), state.consecutive_bad()), (good, 0));
     }
 }

@@ -5,7 +5,7 @@ use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 use bowden::effect::{Effect, CATALOGUE};
 use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Source, Term};
-use bowden::signal::{Derivative, DerivativeState, GuardState, Plausible, PlausibleState};
+use bowden::signal::{Derivative, DerivativeState, Plausible, PlausibleState};
 use bowden::signal::{Play, PlayState, RampState};
 use bowden::transmission::Transmission;
 use bowden::Real;
@@ -462,7 +462,6 @@ fn a_stored_state_of_a_signal_with_a_number_that_is_not_finite_is_refused() {
     let mut play = PlayState::new();
     Play::try_new(0.1).unwrap().step(&mut play, 1.0);
     reads_finite_numbers_only(&play);
-    reads_finite_numbers_only(&GuardState::new(3.0));
     let mut plausible = PlausibleState::new();
     let range = Plausible::try_new(-5.0, 5.0).unwrap();
     range.step(&mut plausible, 1.0, 1e-3, true);

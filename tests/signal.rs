@@ -1,9 +1,7 @@
 //! Signal conditioning: what it promises for good samples and for bad ones.
 
 use approx::assert_abs_diff_eq;
-use bowden::signal::{
-    clamp, Derivative, DerivativeState, Guard, GuardState, Play, PlayState, Rates, RatesState,
-};
+use bowden::signal::{clamp, Derivative, DerivativeState, Play, PlayState, Rates, RatesState};
 use bowden::Error;
 use proptest::prelude::*;
 
@@ -15,22 +13,6 @@ fn clamp_keeps_nan_where_max_and_min_would_hide_it() {
     #[allow(clippy::manual_clamp)]
     let hidden = f64::NAN.max(-1.0).min(1.0);
     assert_eq!(hidden, -1.0);
-}
-
-#[test]
-fn the_guard_holds_the_last_good_sample_and_counts() {
-    let guard = Guard::try_new(10.0).unwrap();
-    let mut state = GuardState::new(0.5);
-    assert_eq!(guard.step(&mut state, f64::NAN), 0.5);
-    assert_eq!(guard.step(&mut state, -10.0), -10.0);
-    for (k, bad) in BAD.into_iter().chain([10.1]).enumerate() {
-        assert_eq!(guard.step(&mut state, bad), -10.0);
-        assert_eq!(state.consecutive_bad() as usize, k + 1);
-    }
-    assert_eq!(guard.step(&mut state, 3.0), 3.0);
-    assert_eq!(state.consecutive_bad(), 0);
-    assert_eq!(Guard::try_new(0.0), Err(Error::OutOfRange("limit")));
-    assert_eq!(Guard::try_new(f64::NAN), Err(Error::NonFinite("limit")));
 }
 
 #[test]

@@ -3,9 +3,7 @@
 
 use bowden::constant;
 use bowden::hysteresis::BoucWen;
-use bowden::signal::{
-    Biquad, Derivative, EdgeVelocity, Guard, LowPass, Plausible, Play, Ramp, Rates,
-};
+use bowden::signal::{Biquad, Derivative, EdgeVelocity, LowPass, Plausible, Play, Ramp, Rates};
 use bowden::transmission::Transmission;
 use bowden::Error;
 use proptest::prelude::*;
@@ -27,7 +25,6 @@ macro_rules! statics {
             );
             static DERIVATIVE: Derivative<$float> =
                 constant!(Derivative::<$float>::const_new(0.01));
-            static GUARD: Guard<$float> = constant!(Guard::<$float>::const_new(200.0));
             static PLAY: Play<$float> = constant!(Play::<$float>::const_new(0.2));
             static RAMP: Ramp<$float> = constant!(
                 constant!(Ramp::<$float>::const_new(50.0, 0.02)).const_with_longest_dt(0.005)
@@ -64,7 +61,6 @@ macro_rules! statics {
                     Transmission::displacement(0.9978, 7.004, 0.05174, SHAPE)
                 );
                 assert_eq!(Ok(DERIVATIVE), Derivative::try_new(0.01));
-                assert_eq!(Ok(GUARD), Guard::try_new(200.0));
                 assert_eq!(Ok(PLAY), Play::try_new(0.2));
                 let ramp = Ramp::try_new(50.0, 0.02).and_then(|ramp| ramp.with_longest_dt(0.005));
                 assert_eq!(Ok(RAMP), ramp);
@@ -101,7 +97,6 @@ macro_rules! statics {
                         Transmission::displacement(a, b, c, SHAPE),
                     );
                     alike(Derivative::<F>::const_new(a), Derivative::try_new(a));
-                    alike(Guard::<F>::const_new(a), Guard::try_new(a));
                     alike(Play::<F>::const_new(a), Play::try_new(a));
                     alike(Ramp::<F>::const_new(a, b), Ramp::try_new(a, b));
                     alike(RAMP.const_with_longest_dt(a), RAMP.with_longest_dt(a));

@@ -4,7 +4,6 @@
 //! |---|---|
 //! | [`clamp`] | clamp to a range |
 //! | [`Compensated`] | compensated sum |
-//! | [`Guard`] | hold the last good sample |
 //! | [`Plausible`] | reject finite but implausible numbers |
 //! | [`Play`] | play operator |
 //! | [`LowPass`], [`Biquad`] | first-order and second-order filters, notch |
@@ -22,7 +21,6 @@ mod compensated;
 mod derivative;
 mod edges;
 mod gap;
-mod guard;
 mod low_pass;
 mod motion;
 mod plausible;
@@ -40,7 +38,6 @@ pub use compensated::Compensated;
 pub use derivative::{Derivative, DerivativeState};
 pub use edges::{EdgeStatus, EdgeVelocity, EdgeVelocityOutput, EdgeVelocityState};
 pub(crate) use gap::gap_after;
-pub use guard::{Guard, GuardState};
 pub use low_pass::{LowPass, LowPassState};
 pub use motion::Motion;
 pub use plausible::{Implausible, Plausible, PlausibleOutput, PlausibleState};

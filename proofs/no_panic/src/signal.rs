@@ -80,16 +80,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_play_step, play.step(&mut state, any()));
     never_panics!(signal_play_output, state.output());
 
-    never_panics!(signal_guard_const_new, Guard::<f32>::const_new(any()));
-    never_panics!(signal_guard_try_new, Guard::<T>::try_new(any()));
-    let held = black_box(Guard::<T>::try_new(any())).ok()?;
-    never_panics!(signal_guard_new, GuardState::<T>::new(any()));
-    let mut state = black_box(GuardState::<T>::new(any()));
-    never_panics!(signal_guard_limit, held.limit());
-    never_panics!(signal_guard_step, held.step(&mut state, any()));
-    never_panics!(signal_guard_consecutive_bad, state.consecutive_bad());
-    never_panics!(signal_guard_good, state.good());
-
     never_panics!(
         signal_derivative_const_new,
         Derivative::<f32>::const_new(any())
