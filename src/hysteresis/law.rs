@@ -4,7 +4,7 @@
 //! `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the path `p = rho·|dx|`, the equation reads
 //! `dzeta/dp = f(zeta)`, which does not contain time. [`eta_rate`] is the printed equation, [`f`]
 //! the same along the path: `eta' = d·rho·|x'|·f(d·eta)` (test `tests/hysteresis/law.rs`). The steps
-//! of [`BoucWen`](super::BoucWen) integrate `f` through [`loading`] and [`unloading`].
+//! of [`BoucWen`](super::BoucWen) integrate `f` through `loading` and `unloading`.
 
 use super::number::Number;
 use crate::Real;
