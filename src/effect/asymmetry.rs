@@ -1,21 +1,24 @@
 //! Asymmetry: the difference between the two directions.
-//!
-//! Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All are even, while friction is odd. Together
-//! with `viscous` and `drag` the first two give one coefficient for each sign of v. The last
-//! two give a loop that is higher on one side.
-//!
-//! Source: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of
-//! EMPS", *Workshop on Nonlinear System Identification Benchmarks*, 2019; for the
-//! loop, J. Song, A. Der Kiureghian, "Generalized Bouc-Wen model for highly
-//! asymmetric hysteresis", *Journal of Engineering Mechanics* 132(6), 2006.
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::Even;
-use super::{
-    AsymmetryDrag, AsymmetryEta, AsymmetryEtaSquared, AsymmetryViscous, Dimension, EffectState,
-    Family, Inputs, Quantity, Symmetry,
-};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Asymmetry: the difference between the two directions.
+    ///
+    /// Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All are even, while friction is odd. Together
+    /// with `viscous` and `drag` the first two give one coefficient for each sign of v. The last
+    /// two give a loop that is higher on one side.
+    ///
+    /// Source: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of
+    /// EMPS", *Workshop on Nonlinear System Identification Benchmarks*, 2019; for the
+    /// loop, J. Song, A. Der Kiureghian, "Generalized Bouc-Wen model for highly
+    /// asymmetric hysteresis", *Journal of Engineering Mechanics* 132(6), 2006.
+    AsymmetryViscous
+}
 
 impl<T: Real> Regressor<T> for AsymmetryViscous {
     const INFO: &'static Info = &Info {
@@ -32,6 +35,13 @@ impl<T: Real> Regressor<T> for AsymmetryViscous {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity.abs()
     }
+}
+
+plain! {
+    /// Quadratic asymmetry in the velocity.
+    ///
+    /// Formula: `v²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    AsymmetryDrag
 }
 
 impl<T: Real> Regressor<T> for AsymmetryDrag {
@@ -55,6 +65,13 @@ impl<T: Real> Regressor<T> for AsymmetryDrag {
     }
 }
 
+plain! {
+    /// Asymmetry of the loop.
+    ///
+    /// Formula: `|eta|`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    AsymmetryEta
+}
+
 impl<T: Real> Regressor<T> for AsymmetryEta {
     const INFO: &'static Info = &Info {
         name: "asymmetry-eta",
@@ -70,6 +87,13 @@ impl<T: Real> Regressor<T> for AsymmetryEta {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta.abs()
     }
+}
+
+plain! {
+    /// Quadratic asymmetry of the loop.
+    ///
+    /// Formula: `eta²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    AsymmetryEtaSquared
 }
 
 impl<T: Real> Regressor<T> for AsymmetryEtaSquared {

@@ -1,16 +1,4 @@
 //! Backlash and dead zone: a gap without transmission.
-//!
-//! Formulas: `play(x; r) − x`, the effect of a gap of half-width r, and `x − clamp(x, −r, r)`,
-//! a spring with a gap around zero. The play is flat over the distance 2·r after each reversal.
-//! In series the same play acts on the transmission's input: hysteresis and gain then see
-//! `play(x; r)` instead of x.
-//!
-//! `play(x; r) − x` is `−stop(x; r)`: it equals [`presliding`](super::presliding) with the opposite
-//! sign, multiplied by r. No record can distinguish the two.
-//!
-//! Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
-//! — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
-//! A. V. Pokrovskii, *Systems with Hysteresis*, 1989.
 
 use super::info::{Info, Regressor, Stage};
 use super::shaped::shaped;
@@ -22,8 +10,20 @@ use crate::Real;
 shaped! {
     /// The play of half-width `r` minus its input; it starts in mid-gap.
     ///
+    /// Formulas: `play(x; r) − x`, the effect of a gap of half-width r, and `x − clamp(x, −r, r)`,
+    /// a spring with a gap around zero. The play is flat over the distance 2·r after each reversal.
+    /// In series the same play acts on the transmission's input: hysteresis and gain then see
+    /// `play(x; r)` instead of x.
+    ///
+    /// `play(x; r) − x` is `−stop(x; r)`: it equals [`Presliding`](super::Presliding) with the opposite
+    /// sign, multiplied by r. No record can distinguish the two.
+    ///
+    /// Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
+    /// — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
+    /// A. V. Pokrovskii, *Systems with Hysteresis*, 1989.
+    ///
     /// ```
-    /// use bowden::{effect::backlash::Backlash, Error};
+    /// use bowden::{effect::Backlash, Error};
     /// assert_eq!(Backlash::try_new(0.5)?.r(), 0.5);
     /// assert_eq!(Backlash::try_new(0.0), Err(Error::OutOfRange("r")));
     /// # Ok::<(), Error>(())
@@ -62,8 +62,10 @@ shaped! {
     /// a gain of one the transmission sees `play(x; r)`; with a lower gain, part of the gap is
     /// bridged. The play starts in mid-gap.
     ///
+    /// Formula: `play(x; r) − x, added to the input`; source: [`Backlash`](super::Backlash).
+    ///
     /// ```
-    /// use bowden::{effect::backlash::PlayInSeries, Error};
+    /// use bowden::{effect::PlayInSeries, Error};
     /// assert_eq!(PlayInSeries::try_new(0.5)?.r(), 0.5);
     /// assert_eq!(PlayInSeries::try_new(0.0), Err(Error::OutOfRange("r")));
     /// # Ok::<(), Error>(())
@@ -91,8 +93,10 @@ impl<T: Real> Regressor<T> for PlayInSeries<T> {
 shaped! {
     /// A spring with a gap around zero.
     ///
+    /// Formula: `x − clamp(x, −r, r)`; source: [`Backlash`](super::Backlash).
+    ///
     /// ```
-    /// use bowden::{effect::backlash::DeadZone, Error};
+    /// use bowden::{effect::DeadZone, Error};
     /// assert_eq!(DeadZone::try_new(0.5)?.r(), 0.5);
     /// assert_eq!(DeadZone::try_new(0.0), Err(Error::OutOfRange("r")));
     /// # Ok::<(), Error>(())

@@ -1,14 +1,4 @@
 //! Capstan friction: friction grows with the tension and with the wrap angle.
-//!
-//! Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle from its origin.
-//! With a gain of mu this is Euler-Eytelwein's `load·(exp(mu·x) − 1)`, the tension that
-//! friction adds along the wrap. As mu goes to zero it becomes `load·x·tanh(v/v_e)`. A wrap x_0
-//! at the origin adds load friction, `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and makes the gain
-//! `mu·exp(mu·x_0)`. The wrap grows with x, so mu is positive.
-//!
-//! Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
-//! T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
-//! for tendon drive robots", *ICAR*, 1991.
 
 use super::bounds::saturate;
 use super::coulomb::sign;
@@ -21,8 +11,18 @@ use crate::Real;
 shaped! {
     /// Friction proportional to the tension, exponential in the wrap angle.
     ///
+    /// Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle from its origin.
+    /// With a gain of mu this is Euler-Eytelwein's `load·(exp(mu·x) − 1)`, the tension that
+    /// friction adds along the wrap. As mu goes to zero it becomes `load·x·tanh(v/v_e)`. A wrap x_0
+    /// at the origin adds load friction, `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and makes the gain
+    /// `mu·exp(mu·x_0)`. The wrap grows with x, so mu is positive.
+    ///
+    /// Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
+    /// T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
+    /// for tendon drive robots", *ICAR*, 1991.
+    ///
     /// ```
-    /// use bowden::{effect::capstan::Capstan, Error};
+    /// use bowden::{effect::Capstan, Error};
     /// assert_eq!(Capstan::try_new(0.5, 0.2)?.mu(), 0.2);
     /// assert_eq!(Capstan::try_new(0.0, 0.2), Err(Error::OutOfRange("v_e")));
     /// assert_eq!(Capstan::try_new(0.5, 0.0), Err(Error::OutOfRange("mu")));

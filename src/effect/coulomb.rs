@@ -1,11 +1,4 @@
 //! Coulomb friction: odd in the velocity, and constant in magnitude.
-//!
-//! Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a constant width that is
-//! too sharp, a false Stribeck effect would compensate the error.
-//!
-//! Source: S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding
-//! dry, boundary and mixed lubricated contacts", *Tribology International* 40(4),
-//! 2007.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -16,8 +9,15 @@ use crate::Real;
 shaped! {
     /// Coulomb friction, smoothed over the velocity `v_e`.
     ///
+    /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a constant width that is
+    /// too sharp, a false Stribeck effect would compensate the error.
+    ///
+    /// Source: S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding
+    /// dry, boundary and mixed lubricated contacts", *Tribology International* 40(4),
+    /// 2007.
+    ///
     /// ```
-    /// use bowden::{effect::coulomb::Coulomb, Error};
+    /// use bowden::{effect::Coulomb, Error};
     /// assert_eq!(Coulomb::try_new(0.5)?.v_e(), 0.5);
     /// assert_eq!(Coulomb::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// # Ok::<(), Error>(())

@@ -1,10 +1,4 @@
 //! Creep: a response that continues at constant input.
-//!
-//! Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. Several elements with tau a decade apart
-//! give the logarithmic creep of polymers and piezo stacks. The state starts at the first x.
-//!
-//! Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
-//! creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
 
 use super::info::{Info, Regressor};
 use super::lag::{held_share, low_pass};
@@ -16,8 +10,14 @@ use crate::Real;
 shaped! {
     /// A first-order low-pass of x.
     ///
+    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. Several elements with tau a decade apart
+    /// give the logarithmic creep of polymers and piezo stacks. The state starts at the first x.
+    ///
+    /// Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
+    /// creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
+    ///
     /// ```
-    /// use bowden::{effect::creep::Creep, Error};
+    /// use bowden::{effect::Creep, Error};
     /// assert_eq!(Creep::try_new(0.5)?.tau(), 0.5);
     /// assert_eq!(Creep::try_new(0.0), Err(Error::OutOfRange("tau")));
     /// # Ok::<(), Error>(())

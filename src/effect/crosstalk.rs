@@ -1,13 +1,19 @@
 //! Crosstalk: proportional to another channel.
-//!
-//! Formula: `x` of the other channel.
-//!
-//! Source: L. Ljung, *System Identification*, 1999 (several inputs).
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::{Even, Odd};
-use super::{Crosstalk, Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Crosstalk: proportional to another channel.
+    ///
+    /// Formula: `x` of the other channel.
+    ///
+    /// Source: L. Ljung, *System Identification*, 1999 (several inputs).
+    Crosstalk
+}
 
 impl<T: Real> Regressor<T> for Crosstalk {
     const INFO: &'static Info = &Info {

@@ -1,17 +1,4 @@
 //! Curve: a measured characteristic without a formula, piecewise linear.
-//!
-//! Formulas: `clip((x − from)/width, 0, 1)` and the same of v: one segment, which rises from 0 to 1
-//! and stays there. A curve through the points `(x_1, f_1)` to `(x_N, f_N)`, constant beyond its
-//! ends, is an offset and N − 1 segments:
-//! `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`.
-//! [`Term::curve`](crate::model::Term::curve) gives these N terms. Over a load, the channel of the
-//! source is the load.
-//!
-//! A segment is bounded by 0 and 1 for any input, so that it can be a regressor of the
-//! [adaptive law](crate::control::Adaptive), which then learns the curve point by point.
-//!
-//! Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter III (piecewise linear
-//! interpolation), with the hat functions summed from the right.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -22,8 +9,21 @@ use crate::Real;
 shaped! {
     /// One segment of a curve over the position.
     ///
+    /// Formulas: `clip((x − from)/width, 0, 1)` and the same of v: one segment, which rises from 0 to 1
+    /// and stays there. A curve through the points `(x_1, f_1)` to `(x_N, f_N)`, constant beyond its
+    /// ends, is an offset and N − 1 segments:
+    /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`.
+    /// [`Term::curve`](crate::model::Term::curve) gives these N terms. Over a load, the channel of the
+    /// source is the load.
+    ///
+    /// A segment is bounded by 0 and 1 for any input, so that it can be a regressor of the
+    /// [adaptive law](crate::control::Adaptive), which then learns the curve point by point.
+    ///
+    /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter III (piecewise linear
+    /// interpolation), with the hat functions summed from the right.
+    ///
     /// ```
-    /// use bowden::{effect::curve::CurvePosition, Error};
+    /// use bowden::{effect::CurvePosition, Error};
     /// assert_eq!(CurvePosition::try_new(-0.5, 2.0)?.width(), 2.0);
     /// assert_eq!(CurvePosition::try_new(-0.5, 0.0), Err(Error::OutOfRange("width")));
     /// # Ok::<(), Error>(())
@@ -39,8 +39,10 @@ shaped! {
 shaped! {
     /// One segment of a curve over the velocity.
     ///
+    /// Formula: `clip((v − from)/width, 0, 1)`; source: [`CurvePosition`](super::CurvePosition).
+    ///
     /// ```
-    /// use bowden::{effect::curve::CurveVelocity, Error};
+    /// use bowden::{effect::CurveVelocity, Error};
     /// assert_eq!(CurveVelocity::try_new(-0.5, 2.0)?.from(), -0.5);
     /// assert_eq!(CurveVelocity::try_new(f64::NAN, 2.0), Err(Error::NonFinite("from")));
     /// # Ok::<(), Error>(())

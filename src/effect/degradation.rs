@@ -1,13 +1,4 @@
 //! Degradation: the loop shrinks, or grows, with the work done.
-//!
-//! Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input (trapezoids,
-//! from the first sample on), for any channel. For W ≪ w_c it is the linear `eta·W/w_c`. The limit
-//! is `eta`: after running-in the loop stays bounded. The sum is compensated, so small steps count
-//! even in `f32`.
-//!
-//! Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems", *Journal of
-//! the Engineering Mechanics Division* 107(6), 1981, where the change is linear in the work; here
-//! the exponential bounds it.
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
@@ -20,8 +11,17 @@ use crate::Real;
 shaped! {
     /// A loop that changes with the work and settles.
     ///
+    /// Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input (trapezoids,
+    /// from the first sample on), for any channel. For W ≪ w_c it is the linear `eta·W/w_c`. The limit
+    /// is `eta`: after running-in the loop stays bounded. The sum is compensated, so small steps count
+    /// even in `f32`.
+    ///
+    /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems", *Journal of
+    /// the Engineering Mechanics Division* 107(6), 1981, where the change is linear in the work; here
+    /// the exponential bounds it.
+    ///
     /// ```
-    /// use bowden::{effect::degradation::Degradation, Error};
+    /// use bowden::{effect::Degradation, Error};
     /// assert_eq!(Degradation::try_new(40.0)?.w_c(), 40.0);
     /// assert_eq!(Degradation::try_new(0.0), Err(Error::OutOfRange("w_c")));
     /// # Ok::<(), Error>(())

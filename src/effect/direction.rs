@@ -1,11 +1,4 @@
 //! Load friction that differs between driving and back-driving.
-//!
-//! Formula: `|load|·tanh(v/v_e)` if `load·v > 0` (drive), or if `load·v < 0` (back-drive),
-//! otherwise 0. The two add up to `load-friction`.
-//!
-//! Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
-//! characterization of backdrivability towards improved proprioceptive control",
-//! *ICRA*, 2015.
 
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
@@ -17,8 +10,15 @@ use crate::Real;
 shaped! {
     /// Load friction while the load drives the motion.
     ///
+    /// Formula: `|load|·tanh(v/v_e)` if `load·v > 0` (drive), or if `load·v < 0` (back-drive),
+    /// otherwise 0. The two add up to `load-friction`.
+    ///
+    /// Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
+    /// characterization of backdrivability towards improved proprioceptive control",
+    /// *ICRA*, 2015.
+    ///
     /// ```
-    /// use bowden::{effect::direction::DriveFriction, Error};
+    /// use bowden::{effect::DriveFriction, Error};
     /// assert_eq!(DriveFriction::try_new(0.5)?.v_e(), 0.5);
     /// assert_eq!(DriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// # Ok::<(), Error>(())
@@ -53,8 +53,10 @@ impl<T: Real> Regressor<T> for DriveFriction<T> {
 shaped! {
     /// Load friction while the motion opposes the load.
     ///
+    /// Formula: `|load|·tanh(v/v_e) where load·v < 0`; source: [`DriveFriction`](super::DriveFriction).
+    ///
     /// ```
-    /// use bowden::{effect::direction::BackDriveFriction, Error};
+    /// use bowden::{effect::BackDriveFriction, Error};
     /// assert_eq!(BackDriveFriction::try_new(0.5)?.v_e(), 0.5);
     /// assert_eq!(BackDriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// # Ok::<(), Error>(())

@@ -1,14 +1,20 @@
 //! Drag: odd in the velocity, with more than linear growth.
-//!
-//! Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
-//!
-//! Source: K. Worden, G. R. Tomlinson, *Nonlinearity in Structural Dynamics*,
-//! 2001, chapter 2.
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::Odd;
-use super::{Dimension, DragCubic, DragQuadratic, EffectState, Family, Inputs, Quantity, Symmetry};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Drag: odd in the velocity, with more than linear growth.
+    ///
+    /// Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
+    ///
+    /// Source: K. Worden, G. R. Tomlinson, *Nonlinearity in Structural Dynamics*,
+    /// 2001, chapter 2.
+    DragQuadratic
+}
 
 impl<T: Real> Regressor<T> for DragQuadratic {
     const INFO: &'static Info = &Info {
@@ -29,6 +35,13 @@ impl<T: Real> Regressor<T> for DragQuadratic {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.velocity * at.motion.velocity.abs()
     }
+}
+
+plain! {
+    /// Cubic drag, the next odd power.
+    ///
+    /// Formula: `v³`; source: [`DragQuadratic`](super::DragQuadratic).
+    DragCubic
 }
 
 impl<T: Real> Regressor<T> for DragCubic {

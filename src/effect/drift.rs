@@ -1,14 +1,20 @@
 //! Drift: a trend in time.
-//!
-//! Formula: `t`.
-//!
-//! Source: J. S. Bendat, A. G. Piersol, *Random Data*, 2010, chapter 10 (trend
-//! removal).
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::Even;
-use super::{Dimension, Drift, EffectState, Family, Inputs, Quantity, Symmetry};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Drift: a trend in time.
+    ///
+    /// Formula: `t`.
+    ///
+    /// Source: J. S. Bendat, A. G. Piersol, *Random Data*, 2010, chapter 10 (trend
+    /// removal).
+    Drift
+}
 
 impl<T: Real> Regressor<T> for Drift {
     const INFO: &'static Info = &Info {

@@ -1,9 +1,4 @@
 //! Gravity on a lever: periodic in the angle, once per turn.
-//!
-//! Formula: `sin(x + psi)`. The channel must be an angle in radians.
-//!
-//! Source: M. W. Spong, S. Hutchinson, M. Vidyasagar, *Robot Modeling and
-//! Control*, 2006, chapter 7.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -14,8 +9,13 @@ use crate::Real;
 shaped! {
     /// The weight of a lever at the angle x.
     ///
+    /// Formula: `sin(x + psi)`. The channel must be an angle in radians.
+    ///
+    /// Source: M. W. Spong, S. Hutchinson, M. Vidyasagar, *Robot Modeling and
+    /// Control*, 2006, chapter 7.
+    ///
     /// ```
-    /// use bowden::{effect::gravity::Gravity, Error};
+    /// use bowden::{effect::Gravity, Error};
     /// assert_eq!(Gravity::try_new(0.5)?.psi(), 0.5);
     /// assert_eq!(Gravity::try_new(f64::NAN), Err(Error::NonFinite("psi")));
     /// # Ok::<(), Error>(())

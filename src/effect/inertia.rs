@@ -1,14 +1,20 @@
 //! Inertia: proportional to the acceleration, even in the velocity.
-//!
-//! Formula: `a`.
-//!
-//! Source: I. Newton, *Principia*, 1687; as a regressor of identification,
-//! W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002.
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::{Even, Odd};
-use super::{Dimension, EffectState, Family, Inertia, Inputs, Quantity, Symmetry};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Inertia: proportional to the acceleration, even in the velocity.
+    ///
+    /// Formula: `a`.
+    ///
+    /// Source: I. Newton, *Principia*, 1687; as a regressor of identification,
+    /// W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002.
+    Inertia
+}
 
 impl<T: Real> Regressor<T> for Inertia {
     const INFO: &'static Info = &Info {

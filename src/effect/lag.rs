@@ -1,12 +1,4 @@
 //! A first-order lag of the output.
-//!
-//! Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds each
-//! sample over its dt, so it is exact for steps at any dt. Rounding limits the increment of a step,
-//! so the memory stops short of its target by up to tau/dt times half an epsilon. In `f32` this
-//! distance is 0.06 % at tau/dt of 10^4 and 6 % at 10^6. The lag is an output stage: it reads the
-//! sum of all terms before it.
-//!
-//! Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
@@ -18,8 +10,16 @@ use crate::Real;
 shaped! {
     /// The low-pass of the output minus the output; starts at the first output.
     ///
+    /// Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds each
+    /// sample over its dt, so it is exact for steps at any dt. Rounding limits the increment of a step,
+    /// so the memory stops short of its target by up to tau/dt times half an epsilon. In `f32` this
+    /// distance is 0.06 % at tau/dt of 10^4 and 6 % at 10^6. The lag is an output stage: it reads the
+    /// sum of all terms before it.
+    ///
+    /// Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
+    ///
     /// ```
-    /// use bowden::{effect::lag::Lag, Error};
+    /// use bowden::{effect::Lag, Error};
     /// assert_eq!(Lag::try_new(0.5)?.tau(), 0.5);
     /// assert_eq!(Lag::try_new(0.0), Err(Error::OutOfRange("tau")));
     /// # Ok::<(), Error>(())

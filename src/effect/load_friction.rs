@@ -1,9 +1,4 @@
 //! Load-dependent dry friction: the law of Amontons.
-//!
-//! Formula: `|load|·tanh(v/v_e)`.
-//!
-//! Source: P. Hamon, M. Gautier, P. Garrec, "Dynamic identification of robots with
-//! a dry friction model depending on load and velocity", *IROS*, 2010.
 
 use super::coulomb::sign;
 use super::info::{Info, Regressor};
@@ -15,8 +10,13 @@ use crate::Real;
 shaped! {
     /// Dry friction proportional to the load.
     ///
+    /// Formula: `|load|·tanh(v/v_e)`.
+    ///
+    /// Source: P. Hamon, M. Gautier, P. Garrec, "Dynamic identification of robots with
+    /// a dry friction model depending on load and velocity", *IROS*, 2010.
+    ///
     /// ```
-    /// use bowden::{effect::load_friction::LoadFriction, Error};
+    /// use bowden::{effect::LoadFriction, Error};
     /// assert_eq!(LoadFriction::try_new(0.5)?.v_e(), 0.5);
     /// assert_eq!(LoadFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// # Ok::<(), Error>(())

@@ -3,8 +3,8 @@
 //! Each effect is one *regressor* times a gain that the fit identifies. A regressor is a
 //! function of the motion, the load and the hysteresis state. Each effect states its formula,
 //! unit, symmetries, shape parameters and source. The symmetries show which effects can explain
-//! a residual, and which experiment separates two effects. Each family of effects has its own
-//! module.
+//! a residual, and which experiment separates two effects. Each effect is a type of its own,
+//! and a variant of [`Effect`].
 //!
 //! A regressor is finite for finite input: it saturates if the arithmetic overflows. If an
 //! input is not finite or `dt` is negative, the regressor returns 0 and leaves its memory
@@ -20,39 +20,39 @@ mod shaped;
 mod situation;
 mod sum;
 
-pub mod asymmetry;
-pub mod backlash;
-pub mod capstan;
-pub mod coulomb;
-pub mod creep;
-pub mod crosstalk;
-pub mod curve;
-pub mod degradation;
-pub mod delay;
-pub mod direction;
-pub mod drag;
-pub mod drift;
-pub mod gain;
-pub mod gravity;
-pub mod hardening;
-pub mod inertia;
-pub mod lag;
-pub mod load_friction;
-pub mod offset;
-pub mod pinching;
-pub mod position_friction;
-pub mod power_law;
-pub mod presliding;
-pub mod pretension;
-pub mod rate;
-pub mod ripple;
-pub mod saturation;
-pub mod stiffness;
-pub mod stretch;
-pub mod stribeck;
-pub mod temperature;
-pub mod tone;
-pub mod viscous;
+mod asymmetry;
+mod backlash;
+mod capstan;
+mod coulomb;
+mod creep;
+mod crosstalk;
+mod curve;
+mod degradation;
+mod delay;
+mod direction;
+mod drag;
+mod drift;
+mod gain;
+mod gravity;
+mod hardening;
+mod inertia;
+mod lag;
+mod load_friction;
+mod offset;
+mod pinching;
+mod position_friction;
+mod power_law;
+mod presliding;
+mod pretension;
+mod rate;
+mod ripple;
+mod saturation;
+mod stiffness;
+mod stretch;
+mod stribeck;
+mod temperature;
+mod tone;
+mod viscous;
 
 pub use crate::signal::Motion;
 pub use family::Family;
@@ -65,15 +65,11 @@ use info::sealed::Sealed;
 pub(crate) use info::Stage;
 use shaped::{Shaped, COUNT};
 
-/// The types of effects without shapes.
+/// Common part of the types of effects without shapes; each type has its own file.
 macro_rules! plain_types {
     ($($module:ident: $($plain:ident)+;)*) => {
         $($(
-            #[doc = concat!("One effect as a type, without shapes; formula and source: [`", stringify!($module), "`].")]
-            #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-            #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-            #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-            pub struct $plain;
+            pub use $module::$plain;
 
             impl Sealed for $plain {}
 
@@ -136,10 +132,10 @@ macro_rules! effects {
         #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         #[non_exhaustive]
         pub enum Effect<T> {
-            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($module), "`].")] $plain,)+)*
-            $($(#[doc = concat!("Formula and source: [`", stringify!($shaped_module), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
-            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($later_module), "`].")] $later,)+)*
-            $($(#[doc = concat!("Formula and source: [`", stringify!($late_module), "`].")] $late($late_module::$late<T>),)+)*
+            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($plain), "`].")] $plain,)+)*
+            $($(#[doc = concat!("Formula and source: [`", stringify!($shaped), "`].")] $shaped($shaped_module::$shaped<T>),)+)*
+            $($(#[doc = concat!("Without shapes; formula and source: [`", stringify!($later), "`].")] $later,)+)*
+            $($(#[doc = concat!("Formula and source: [`", stringify!($late), "`].")] $late($late_module::$late<T>),)+)*
         }
 
         /// All effects, in the order in which compact forms number them.
@@ -394,7 +390,7 @@ impl<T: Real> Effect<T> {
     /// The contribution of a term with this gain to the output: gain times regressor, except for a
     /// delay.
     ///
-    /// The gain of a [`delay`] is a time, and the output is not linear in this time; the regressor
+    /// The gain of a [`Delay`] is a time, and the output is not linear in this time; the regressor
     /// is the slope at zero delay. The result is finite for finite input. If a number that the
     /// effect reads is not finite, or a `dt` that it reads is negative, the result is 0 and `state`
     /// is unchanged.

@@ -1,13 +1,19 @@
 //! A constant: the offset of the sensor or of the load.
-//!
-//! Formula: `1`.
-//!
-//! Source: part of every linear regression; L. Ljung, *System Identification*, 1999.
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::Even;
-use super::{Dimension, EffectState, Family, Inputs, Offset, Symmetry};
+use super::{Dimension, EffectState, Family, Inputs, Symmetry};
 use crate::Real;
+
+plain! {
+    /// A constant: the offset of the sensor or of the load.
+    ///
+    /// Formula: `1`.
+    ///
+    /// Source: part of every linear regression; L. Ljung, *System Identification*, 1999.
+    Offset
+}
 
 impl<T: Real> Regressor<T> for Offset {
     const INFO: &'static Info = &Info {

@@ -1,9 +1,4 @@
 //! Pinching: the loop is narrow, or wide, at its centre.
-//!
-//! Formula: `eta·exp(−(eta/w)²)`.
-//!
-//! Source: T. T. Baber, M. N. Noori, "Random vibration of degrading, pinching
-//! systems", *Journal of Engineering Mechanics* 111(8), 1985.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -14,8 +9,13 @@ use crate::Real;
 shaped! {
     /// A change of the loop around eta = 0.
     ///
+    /// Formula: `eta·exp(−(eta/w)²)`.
+    ///
+    /// Source: T. T. Baber, M. N. Noori, "Random vibration of degrading, pinching
+    /// systems", *Journal of Engineering Mechanics* 111(8), 1985.
+    ///
     /// ```
-    /// use bowden::{effect::pinching::Pinching, Error};
+    /// use bowden::{effect::Pinching, Error};
     /// assert_eq!(Pinching::try_new(0.5)?.w(), 0.5);
     /// assert_eq!(Pinching::try_new(0.0), Err(Error::OutOfRange("w")));
     /// # Ok::<(), Error>(())

@@ -1,21 +1,4 @@
 //! Power-law drag: odd in the velocity, with less than linear growth (shear thinning).
-//!
-//! Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless, and
-//! the gain is the force at 1 channel unit/s, in the output's unit. A record in mm gives a
-//! different gain from the same record in m, but the same exponent. For `0 < a < 1` the force rises
-//! steeply from standstill and flattens. This range lies between [`Viscous`](super::Viscous)
-//! (a = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its slope
-//! is infinite.
-//!
-//! Oils with additives, greases, and (past yield) the fluids of magnetorheological dampers become
-//! thinner as the shear rate rises. The constructor accepts any a > 0. With a above 1 the fluid
-//! thickens; the formulas of [`drag`](super::drag) are the cases a = 2 and a = 3.
-//!
-//! Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
-//! *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,
-//! M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers", *Journal of
-//! Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper development and
-//! future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -26,8 +9,25 @@ use crate::Real;
 shaped! {
     /// Drag that grows with a power of the velocity.
     ///
+    /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless, and
+    /// the gain is the force at 1 channel unit/s, in the output's unit. A record in mm gives a
+    /// different gain from the same record in m, but the same exponent. For `0 < a < 1` the force rises
+    /// steeply from standstill and flattens. This range lies between [`Viscous`](super::Viscous)
+    /// (a = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its slope
+    /// is infinite.
+    ///
+    /// Oils with additives, greases, and (past yield) the fluids of magnetorheological dampers become
+    /// thinner as the shear rate rises. The constructor accepts any a > 0. With a above 1 the fluid
+    /// thickens; the formulas of [`DragQuadratic`](super::DragQuadratic) are the cases a = 2 and a = 3.
+    ///
+    /// Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
+    /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,
+    /// M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers", *Journal of
+    /// Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper development and
+    /// future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
+    ///
     /// ```
-    /// use bowden::{effect::power_law::PowerLaw, Error};
+    /// use bowden::{effect::PowerLaw, Error};
     /// assert_eq!(PowerLaw::try_new(0.4)?.a(), 0.4);
     /// assert_eq!(PowerLaw::try_new(0.0), Err(Error::OutOfRange("a")));
     /// # Ok::<(), Error>(())

@@ -1,19 +1,4 @@
 //! Presliding: a spring that slips, with a memory in addition to eta.
-//!
-//! Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly plastic).
-//! Each cycle wider than 2·r dissipates energy. The loop's area is `4·(X − r)` for a cycle of
-//! amplitude X > r, and 0 for a smaller cycle. The state starts at s = 0. With the opposite sign
-//! this is the [`backlash`](super::backlash) with the same r, except for a factor of r.
-//!
-//! The second formula, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
-//! equation with exponent 1. If x is monotone between two samples, the step
-//! `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates energy: the
-//! loop's area is `4·(X − r·tanh(X/r))`, and z swings between ±tanh(X/r). The state starts at
-//! `z = 0`.
-//!
-//! Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
-//! parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
-//! model", *IEEE Transactions on Automatic Control* 50(11), 2005.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -26,8 +11,23 @@ use crate::Real;
 shaped! {
     /// The stop operator with half-width `r` and unit height.
     ///
+    /// Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly plastic).
+    /// Each cycle wider than 2·r dissipates energy. The loop's area is `4·(X − r)` for a cycle of
+    /// amplitude X > r, and 0 for a smaller cycle. The state starts at s = 0. With the opposite sign
+    /// this is the [`Backlash`](super::Backlash) with the same r, except for a factor of r.
+    ///
+    /// The second formula, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
+    /// equation with exponent 1. If x is monotone between two samples, the step
+    /// `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates energy: the
+    /// loop's area is `4·(X − r·tanh(X/r))`, and z swings between ±tanh(X/r). The state starts at
+    /// `z = 0`.
+    ///
+    /// Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
+    /// parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
+    /// model", *IEEE Transactions on Automatic Control* 50(11), 2005.
+    ///
     /// ```
-    /// use bowden::{effect::presliding::Presliding, Error};
+    /// use bowden::{effect::Presliding, Error};
     /// assert_eq!(Presliding::try_new(0.5)?.r(), 0.5);
     /// assert_eq!(Presliding::try_new(0.0), Err(Error::OutOfRange("r")));
     /// # Ok::<(), Error>(())
@@ -62,8 +62,10 @@ impl<T: Real> Regressor<T> for Presliding<T> {
 shaped! {
     /// Dahl's curve with length `r` and unit height.
     ///
+    /// Formula: `dahl(x; r)`; source: [`Presliding`](super::Presliding).
+    ///
     /// ```
-    /// use bowden::{effect::presliding::PreslidingDahl, Error};
+    /// use bowden::{effect::PreslidingDahl, Error};
     /// assert_eq!(PreslidingDahl::try_new(0.5)?.r(), 0.5);
     /// assert_eq!(PreslidingDahl::try_new(0.0), Err(Error::OutOfRange("r")));
     /// # Ok::<(), Error>(())

@@ -1,10 +1,4 @@
 //! A preload step, for example from a slipped clamp or a re-tensioned cable.
-//!
-//! Formula: `1` if `t ≥ t_s`, otherwise 0.
-//!
-//! Source: for the effect of the preload, V. Agrawal, W. J. Peine, B. Yao, "Modeling
-//! of transmission characteristics across a cable-conduit system", *IEEE
-//! Transactions on Robotics* 26(5), 2010.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -15,8 +9,14 @@ use crate::Real;
 shaped! {
     /// A step at the time `t_s`.
     ///
+    /// Formula: `1` if `t ≥ t_s`, otherwise 0.
+    ///
+    /// Source: for the effect of the preload, V. Agrawal, W. J. Peine, B. Yao, "Modeling
+    /// of transmission characteristics across a cable-conduit system", *IEEE
+    /// Transactions on Robotics* 26(5), 2010.
+    ///
     /// ```
-    /// use bowden::{effect::pretension::Pretension, Error};
+    /// use bowden::{effect::Pretension, Error};
     /// assert_eq!(Pretension::try_new(0.5)?.t_s(), 0.5);
     /// assert_eq!(Pretension::try_new(f64::NAN), Err(Error::NonFinite("t_s")));
     /// # Ok::<(), Error>(())

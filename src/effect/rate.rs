@@ -1,15 +1,21 @@
 //! Rate dependence: the loop's height changes with speed.
-//!
-//! Formulas: `eta·v` and `eta·|v|`.
-//!
-//! Source: M. Al Janaideh, P. Krejčí, "Inverse rate-dependent Prandtl-Ishlinskii
-//! model for feedforward compensation of hysteresis in a piezomicropositioning
-//! actuator", *IEEE/ASME Transactions on Mechatronics* 18(5), 2013.
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::{Even, Odd};
-use super::{Dimension, EffectState, Family, Inputs, Quantity, Rate, RateSymmetric, Symmetry};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Rate dependence: the loop's height changes with speed.
+    ///
+    /// Formulas: `eta·v` and `eta·|v|`.
+    ///
+    /// Source: M. Al Janaideh, P. Krejčí, "Inverse rate-dependent Prandtl-Ishlinskii
+    /// model for feedforward compensation of hysteresis in a piezomicropositioning
+    /// actuator", *IEEE/ASME Transactions on Mechatronics* 18(5), 2013.
+    Rate
+}
 
 impl<T: Real> Regressor<T> for Rate {
     const INFO: &'static Info = &Info {
@@ -26,6 +32,13 @@ impl<T: Real> Regressor<T> for Rate {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.eta * at.motion.velocity
     }
+}
+
+plain! {
+    /// Rate dependence on the magnitude of the velocity.
+    ///
+    /// Formula: `eta·|v|`; source: [`Rate`](super::Rate).
+    RateSymmetric
 }
 
 impl<T: Real> Regressor<T> for RateSymmetric {

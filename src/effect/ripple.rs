@@ -1,9 +1,4 @@
 //! Ripple: periodic in the angle, k times per turn.
-//!
-//! Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear ratio.
-//!
-//! Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
-//! gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -14,8 +9,13 @@ use crate::Real;
 shaped! {
     /// A ripple with `k` periods per turn.
     ///
+    /// Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear ratio.
+    ///
+    /// Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
+    /// gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+    ///
     /// ```
-    /// use bowden::{effect::ripple::Ripple, Error};
+    /// use bowden::{effect::Ripple, Error};
     /// assert_eq!(Ripple::try_new(0.5, 2.0)?.k(), 0.5);
     /// assert_eq!(Ripple::try_new(0.0, 2.0), Err(Error::OutOfRange("k")));
     /// # Ok::<(), Error>(())

@@ -1,9 +1,4 @@
 //! Saturation: one-sided, at the extremes.
-//!
-//! Formulas: `max(0, x − x_s)` above, `min(0, x − x_s)` below.
-//!
-//! Source: hinge functions, J. H. Friedman, "Multivariate adaptive regression
-//! splines", *Annals of Statistics* 19(1), 1991.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -15,8 +10,13 @@ use crate::Real;
 shaped! {
     /// The excess of x above `x_s`.
     ///
+    /// Formulas: `max(0, x − x_s)` above, `min(0, x − x_s)` below.
+    ///
+    /// Source: hinge functions, J. H. Friedman, "Multivariate adaptive regression
+    /// splines", *Annals of Statistics* 19(1), 1991.
+    ///
     /// ```
-    /// use bowden::{effect::saturation::SaturationUpper, Error};
+    /// use bowden::{effect::SaturationUpper, Error};
     /// assert_eq!(SaturationUpper::try_new(0.5)?.x_s(), 0.5);
     /// assert_eq!(SaturationUpper::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
     /// # Ok::<(), Error>(())
@@ -47,8 +47,10 @@ impl<T: Real> Regressor<T> for SaturationUpper<T> {
 shaped! {
     /// The excess of x below `x_s`.
     ///
+    /// Formula: `min(0, x − x_s)`; source: [`SaturationUpper`](super::SaturationUpper).
+    ///
     /// ```
-    /// use bowden::{effect::saturation::SaturationLower, Error};
+    /// use bowden::{effect::SaturationLower, Error};
     /// assert_eq!(SaturationLower::try_new(0.5)?.x_s(), 0.5);
     /// assert_eq!(SaturationLower::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
     /// # Ok::<(), Error>(())

@@ -1,4 +1,4 @@
-//! Shape parameters: named, checked by their range, one private field each.
+//! The types of effects. Shape parameters: named, checked by their range, one private field each.
 
 use super::info::ShapeInfo;
 use crate::Error;
@@ -104,3 +104,15 @@ macro_rules! shaped {
     };
 }
 pub(super) use shaped;
+
+/// Defines the type of an effect without shape parameters, with its doc lines.
+macro_rules! plain {
+    ($(#[$doc:meta])* $plain:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        pub struct $plain;
+    };
+}
+pub(super) use plain;

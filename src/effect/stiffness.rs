@@ -1,20 +1,22 @@
 //! Stiffness: single-valued in the position.
-//!
-//! Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`,
-//! a second spring that engages at x_h.
-//!
-//! Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher
-//! Eigenfrequenz*, 1918; for the hinge, S. W. Shaw, P. J. Holmes, "A periodically
-//! forced piecewise linear oscillator", *Journal of Sound and Vibration* 90(1), 1983.
 
 use super::info::{Info, Regressor};
-use super::shaped::shaped;
+use super::shaped::{plain, shaped};
 use super::Parity::{Even, Neither, Odd};
-use super::{
-    Dimension, EffectState, Family, Inputs, Quantity, StiffnessCubic, StiffnessLinear,
-    StiffnessProgressive, StiffnessQuadratic, Symmetry,
-};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Stiffness: single-valued in the position.
+    ///
+    /// Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`,
+    /// a second spring that engages at x_h.
+    ///
+    /// Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher
+    /// Eigenfrequenz*, 1918; for the hinge, S. W. Shaw, P. J. Holmes, "A periodically
+    /// forced piecewise linear oscillator", *Journal of Sound and Vibration* 90(1), 1983.
+    StiffnessLinear
+}
 
 impl<T: Real> Regressor<T> for StiffnessLinear {
     const INFO: &'static Info = &Info {
@@ -31,6 +33,13 @@ impl<T: Real> Regressor<T> for StiffnessLinear {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position
     }
+}
+
+plain! {
+    /// Quadratic stiffness.
+    ///
+    /// Formula: `x²`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    StiffnessQuadratic
 }
 
 impl<T: Real> Regressor<T> for StiffnessQuadratic {
@@ -53,6 +62,13 @@ impl<T: Real> Regressor<T> for StiffnessQuadratic {
     }
 }
 
+plain! {
+    /// Cubic stiffness.
+    ///
+    /// Formula: `x³`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    StiffnessCubic
+}
+
 impl<T: Real> Regressor<T> for StiffnessCubic {
     const INFO: &'static Info = &Info {
         name: "stiffness-cubic",
@@ -71,6 +87,13 @@ impl<T: Real> Regressor<T> for StiffnessCubic {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position * at.motion.position * at.motion.position
     }
+}
+
+plain! {
+    /// Progressive stiffness.
+    ///
+    /// Formula: `x·|x|`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    StiffnessProgressive
 }
 
 impl<T: Real> Regressor<T> for StiffnessProgressive {
@@ -96,8 +119,10 @@ impl<T: Real> Regressor<T> for StiffnessProgressive {
 shaped! {
     /// A spring that engages at `x_h`.
     ///
+    /// Formula: `max(0, x − x_h)`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    ///
     /// ```
-    /// use bowden::{effect::stiffness::Hinge, Error};
+    /// use bowden::{effect::Hinge, Error};
     /// assert_eq!(Hinge::try_new(0.5)?.x_h(), 0.5);
     /// assert_eq!(Hinge::try_new(f64::NAN), Err(Error::NonFinite("x_h")));
     /// # Ok::<(), Error>(())

@@ -1,20 +1,24 @@
 //! Stretch: the elasticity of a cable between its two ends.
-//!
-//! Formulas: `s` and `s³` (hardening), where the channel `s` is the stretch: the difference between
-//! the angles at the two ends, `phi_p − phi_d`. The caller computes the channel, with the signs and
-//! the gear ratio of the rig. If the ends rotate in opposite directions, the stretch is their sum.
-//!
-//! Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
-//! Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for the
-//! cubic, T. D. Tuttle, W. P. Seering, "A Nonlinear Model of a Harmonic Drive Gear
-//! Transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
 
 use super::info::{Info, Regressor};
+use super::shaped::plain;
 use super::Parity::{Even, Odd};
-use super::{
-    Dimension, EffectState, Family, Inputs, Quantity, StretchCubic, StretchLinear, Symmetry,
-};
+use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
+
+plain! {
+    /// Stretch: the elasticity of a cable between its two ends.
+    ///
+    /// Formulas: `s` and `s³` (hardening), where the channel `s` is the stretch: the difference between
+    /// the angles at the two ends, `phi_p − phi_d`. The caller computes the channel, with the signs and
+    /// the gear ratio of the rig. If the ends rotate in opposite directions, the stretch is their sum.
+    ///
+    /// Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
+    /// Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for the
+    /// cubic, T. D. Tuttle, W. P. Seering, "A Nonlinear Model of a Harmonic Drive Gear
+    /// Transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+    StretchLinear
+}
 
 impl<T: Real> Regressor<T> for StretchLinear {
     const INFO: &'static Info = &Info {
@@ -31,6 +35,13 @@ impl<T: Real> Regressor<T> for StretchLinear {
     fn value(&self, _: &mut EffectState<T>, at: &Inputs<T>) -> T {
         at.motion.position
     }
+}
+
+plain! {
+    /// Cubic stretch: a cable that hardens.
+    ///
+    /// Formula: `s³`; source: [`StretchLinear`](super::StretchLinear).
+    StretchCubic
 }
 
 impl<T: Real> Regressor<T> for StretchCubic {

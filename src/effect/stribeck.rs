@@ -1,11 +1,4 @@
 //! Stribeck friction: odd in the velocity, with a decrease from standstill.
-//!
-//! Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, with a = 2 for the usual bell curve and a = 1
-//! for the exponential. The friction at high speed is Coulomb friction.
-//!
-//! Source: R. Stribeck, *Zeitschrift des VDI* 46, 1902; the exponential form is
-//! L. C. Bo, D. Pavelescu, "The friction-speed relation and its influence on the
-//! critical velocity of stick-slip motion", *Wear* 82(3), 1982.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -16,8 +9,15 @@ use crate::Real;
 shaped! {
     /// The excess of friction at low speed.
     ///
+    /// Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, with a = 2 for the usual bell curve and a = 1
+    /// for the exponential. The friction at high speed is Coulomb friction.
+    ///
+    /// Source: R. Stribeck, *Zeitschrift des VDI* 46, 1902; the exponential form is
+    /// L. C. Bo, D. Pavelescu, "The friction-speed relation and its influence on the
+    /// critical velocity of stick-slip motion", *Wear* 82(3), 1982.
+    ///
     /// ```
-    /// use bowden::{effect::stribeck::Stribeck, Error};
+    /// use bowden::{effect::Stribeck, Error};
     /// assert_eq!(Stribeck::try_new(0.5, 2.0)?.v_s(), 0.5);
     /// assert_eq!(Stribeck::try_new(0.0, 2.0), Err(Error::OutOfRange("v_s")));
     /// # Ok::<(), Error>(())

@@ -1,9 +1,4 @@
 //! Temperature: proportional to the temperature. The channel must be a temperature.
-//!
-//! Formula: `x − t_ref`.
-//!
-//! Source: L. Simoni, M. Beschi, G. Legnani, A. Visioli, "Friction modeling with
-//! temperature effects for industrial robot manipulators", *IROS*, 2015.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -14,8 +9,13 @@ use crate::Real;
 shaped! {
     /// The difference between the temperature and `t_ref`.
     ///
+    /// Formula: `x − t_ref`.
+    ///
+    /// Source: L. Simoni, M. Beschi, G. Legnani, A. Visioli, "Friction modeling with
+    /// temperature effects for industrial robot manipulators", *IROS*, 2015.
+    ///
     /// ```
-    /// use bowden::{effect::temperature::Temperature, Error};
+    /// use bowden::{effect::Temperature, Error};
     /// assert_eq!(Temperature::try_new(0.5)?.t_ref(), 0.5);
     /// assert_eq!(Temperature::try_new(f64::NAN), Err(Error::NonFinite("t_ref")));
     /// # Ok::<(), Error>(())

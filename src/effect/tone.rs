@@ -1,8 +1,4 @@
 //! A tone: a sine in time, independent of all measured signals.
-//!
-//! Formula: `sin(2·pi·f·t + psi)`.
-//!
-//! Source: J. S. Bendat, A. G. Piersol, *Random Data*, 2010, chapter 5.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -14,8 +10,12 @@ use core::f64::consts::TAU;
 shaped! {
     /// A sine in time.
     ///
+    /// Formula: `sin(2·pi·f·t + psi)`.
+    ///
+    /// Source: J. S. Bendat, A. G. Piersol, *Random Data*, 2010, chapter 5.
+    ///
     /// ```
-    /// use bowden::{effect::tone::Tone, Error};
+    /// use bowden::{effect::Tone, Error};
     /// assert_eq!(Tone::try_new(0.5, 2.0)?.f(), 0.5);
     /// assert_eq!(Tone::try_new(0.0, 2.0), Err(Error::OutOfRange("f")));
     /// # Ok::<(), Error>(())

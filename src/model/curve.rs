@@ -6,7 +6,7 @@ use crate::error::finite;
 use crate::{Error, Real};
 
 impl<T: Real> Term<T> {
-    /// The terms of a piecewise linear [curve](crate::effect::curve) through the points `(x, f)`,
+    /// The terms of a piecewise linear [curve](crate::effect::CurvePosition) through the points `(x, f)`,
     /// constant beyond its ends: an offset of the first f, and a segment between any two points.
     ///
     /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source; a curve over the

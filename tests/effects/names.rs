@@ -129,7 +129,7 @@ fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
 #[cfg(feature = "serde")]
 mod serde {
     use super::{make, names, Effect};
-    use bowden::effect::coulomb::Coulomb;
+    use bowden::effect::Coulomb;
     use serde::de::value::{Error, MapDeserializer, StrDeserializer};
     use serde::de::IntoDeserializer;
     use serde::Deserialize;

@@ -4,7 +4,6 @@
 //! `try_from_name` and `shape` reach every one of them, Coulomb's stand for their own.
 
 use crate::{any, never_panics};
-use bowden::effect::coulomb::Coulomb;
 use bowden::effect::*;
 use bowden::Real;
 use std::hint::black_box;

@@ -22,7 +22,7 @@ impl Table {
         format!("curve over {}", self.variable.words(data))
     }
 
-    /// What the core's [curve](bowden::effect::curve) of it is over; `None` where the core has none.
+    /// What the core's [curve](bowden::effect::CurvePosition) of it is over; `None` where the core has none.
     pub(crate) fn over(&self) -> Option<Quantity> {
         match self.variable {
             Variable::Position(_) => Some(Quantity::Position),
