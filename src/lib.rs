@@ -85,6 +85,7 @@ pub mod hysteresis;
 pub mod model;
 mod real;
 pub mod signal;
+mod stored;
 pub mod transmission;
 
 pub use error::Error;

@@ -76,17 +76,7 @@ const MOST_SAMPLES: f64 = 65_536.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct IterativeLearning<T> {
     gain: T,
     limit: T,
@@ -475,25 +465,16 @@ enum Moved {
     Jumped,
 }
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-#[serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))]
-struct Unchecked<T> {
-    gain: T,
-    limit: T,
-    lead: u16,
-    half_width: u16,
-    #[serde(default = "T::zero")]
-    forgetting: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for IterativeLearning<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        Self::try_new(raw.gain, raw.limit, raw.lead, raw.half_width)?
-            .with_forgetting(raw.forgetting)
+crate::stored::deserialize_checked! {
+    IterativeLearning<T> {
+        gain: T,
+        limit: T,
+        lead: u16,
+        half_width: u16,
+        #[serde(default = "T::zero")]
+        forgetting: T,
+    } => {
+        Self::try_new(gain, limit, lead, half_width)?
+            .with_forgetting(forgetting)
     }
 }

@@ -18,17 +18,7 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Limits<T> {
     low: T,
     high: T,
@@ -177,21 +167,13 @@ pub(crate) fn around<T: Real>(last: T, reach: T) -> (T, T) {
     (last - reach, last + reach)
 }
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    low: T,
-    high: T,
-    slew: Option<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Limits<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let limits = Self::try_new(raw.low, raw.high)?;
-        raw.slew.map_or(Ok(limits), |slew| limits.with_slew(slew))
+crate::stored::deserialize_checked! {
+    Limits<T> {
+        low: T,
+        high: T,
+        slew: Option<T>,
+    } => {
+        let limits = Self::try_new(low, high)?;
+        slew.map_or(Ok(limits), |slew| limits.with_slew(slew))
     }
 }

@@ -77,17 +77,7 @@ mod proofs;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DisturbanceObserver<T> {
     plant: NominalPlant<T>,
     time_constant: T,
@@ -349,25 +339,16 @@ impl<T: Real> DisturbanceObserver<T> {
     }
 }
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-#[serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))]
-struct Unchecked<T> {
-    plant: NominalPlant<T>,
-    time_constant: T,
-    limit: T,
-    longest_dt: T,
-    #[serde(default = "T::zero")]
-    latency: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for DisturbanceObserver<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        Self::try_new(raw.plant, raw.time_constant, raw.limit, raw.longest_dt)?
-            .with_latency(raw.latency)
+crate::stored::deserialize_checked! {
+    DisturbanceObserver<T> {
+        plant: NominalPlant<T>,
+        time_constant: T,
+        limit: T,
+        longest_dt: T,
+        #[serde(default = "T::zero")]
+        latency: T,
+    } => {
+        Self::try_new(plant, time_constant, limit, longest_dt)?
+            .with_latency(latency)
     }
 }

@@ -101,17 +101,7 @@ impl Status {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Fallback<T> {
     after: u32,
     weight: u32,
@@ -468,32 +458,24 @@ pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
     (!number.is_finite()).then_some(fault)
 }
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    after: u32,
-    #[serde(default = "usual")]
-    weight: u32,
-    command: Option<T>,
+crate::stored::deserialize_checked! {
+    Fallback<T> {
+        after: u32,
+        #[serde(default = "usual")]
+        weight: u32,
+        command: Option<T>,
+    } => {
+        let hold = Self::hold_indefinitely();
+        match command {
+            Some(command) => Self::try_new(after, command)?.with_weight(weight),
+            None if (after, weight) == (hold.after, hold.weight) => Ok(hold),
+            // A line that was lost must not take the safe command away.
+            None => Err(Error::Inadmissible("a fallback must have a safe command")),
+        }
+    }
 }
 
 #[cfg(feature = "serde")]
 const fn usual() -> u32 {
     WEIGHT
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Fallback<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let hold = Self::hold_indefinitely();
-        match raw.command {
-            Some(command) => Self::try_new(raw.after, command)?.with_weight(raw.weight),
-            None if (raw.after, raw.weight) == (hold.after, hold.weight) => Ok(hold),
-            // A line that was lost must not take the safe command away.
-            None => Err(Error::Inadmissible("a fallback must have a safe command")),
-        }
-    }
 }

@@ -55,17 +55,7 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EdgeVelocity<T> {
     count: T,
     time_constant: T,
@@ -362,22 +352,14 @@ impl<T: Real> EdgeVelocityState<T> {
     }
 }
 
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    count: T,
-    time_constant: T,
-    longest_gap: T,
-    period: Option<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for EdgeVelocity<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let edges = Self::try_new(raw.count, raw.time_constant, raw.longest_gap)?;
-        let period = raw.period;
+crate::stored::deserialize_checked! {
+    EdgeVelocity<T> {
+        count: T,
+        time_constant: T,
+        longest_gap: T,
+        period: Option<T>,
+    } => {
+        let edges = Self::try_new(count, time_constant, longest_gap)?;
         period.map_or(Ok(edges), |period| edges.with_period(period))
     }
 }

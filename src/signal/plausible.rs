@@ -25,17 +25,7 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Plausible<T> {
     low: T,
     high: T,
@@ -378,33 +368,22 @@ impl<T: Real> PlausibleState<T> {
     }
 }
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    bound(deserialize = "T: Real + serde::Deserialize<'de>")
-)]
-struct Unchecked<T> {
-    low: T,
-    high: T,
-    rate: Option<T>,
-    sample_period: Option<T>,
-    #[serde(default)]
-    stuck_after: u32,
-    #[serde(default = "super::stored::any_dt")]
-    longest_dt: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Plausible<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let range = Self::try_new(raw.low, raw.high)?
-            .with_stuck_after(raw.stuck_after)
-            .with_longest_dt(raw.longest_dt)?;
-        let rated = raw.rate.map_or(Ok(range), |rate| range.with_rate(rate))?;
-        let period = raw.sample_period;
+crate::stored::deserialize_checked! {
+    Plausible<T> {
+        low: T,
+        high: T,
+        rate: Option<T>,
+        sample_period: Option<T>,
+        #[serde(default)]
+        stuck_after: u32,
+        #[serde(default = "super::stored::any_dt")]
+        longest_dt: T,
+    } => {
+        let range = Self::try_new(low, high)?
+            .with_stuck_after(stuck_after)
+            .with_longest_dt(longest_dt)?;
+        let rated = rate.map_or(Ok(range), |rate| range.with_rate(rate))?;
+        let period = sample_period;
         period.map_or(Ok(rated), |period| rated.with_sample_period(period))
     }
 }

@@ -25,17 +25,7 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Play<T> {
     half_width: T,
 }
@@ -136,17 +126,10 @@ impl<T: Real> PlayState<T> {
     }
 }
 
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    half_width: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Play<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        Self::try_new(raw.half_width)
+crate::stored::deserialize_checked! {
+    Play<T> {
+        half_width: T,
+    } => {
+        Self::try_new(half_width)
     }
 }

@@ -22,17 +22,7 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ramp<T> {
     rate: T,
     time_constant: T,
@@ -203,22 +193,13 @@ impl<T: Real> RampState<T> {
     }
 }
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-#[serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))]
-struct Unchecked<T> {
-    rate: T,
-    time_constant: T,
-    #[serde(default = "super::stored::any_dt")]
-    longest_dt: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Ramp<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        Self::try_new(raw.rate, raw.time_constant)?.with_longest_dt(raw.longest_dt)
+crate::stored::deserialize_checked! {
+    Ramp<T> {
+        rate: T,
+        time_constant: T,
+        #[serde(default = "super::stored::any_dt")]
+        longest_dt: T,
+    } => {
+        Self::try_new(rate, time_constant)?.with_longest_dt(longest_dt)
     }
 }

@@ -23,17 +23,7 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NominalPlant<T> {
     gain: T,
     natural_frequency: T,
@@ -155,20 +145,12 @@ macro_rules! constant {
 constant!(f32);
 constant!(f64);
 
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    gain: T,
-    natural_frequency: T,
-    damping_ratio: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for NominalPlant<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        Self::try_new(raw.gain, raw.natural_frequency, raw.damping_ratio)
+crate::stored::deserialize_checked! {
+    NominalPlant<T> {
+        gain: T,
+        natural_frequency: T,
+        damping_ratio: T,
+    } => {
+        Self::try_new(gain, natural_frequency, damping_ratio)
     }
 }
