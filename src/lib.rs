@@ -53,8 +53,10 @@
 //! | [`effect`] | viscous, Coulomb, Stribeck, backlash, …: one regressor each | |
 //! | [`model`] | a transmission plus effects: the predicted output | |
 //! | [`control`] | torque controllers that reject bad samples | (14)-(26) |
-//! | [`bound`] | error bounds and stability certificates for the controllers | (27)-(38) |
 //! | [`signal`] | filters, rates of a position, play operator, plausibility checks | |
+//!
+//! The crate `bowden-bound` has error bounds and stability certificates for the controllers,
+//! (27)-(38).
 //!
 //! # Conventions
 //! - Configuration and state are two types.
@@ -77,7 +79,6 @@ extern crate std;
 
 #[cfg(any(doc, doctest))]
 pub mod book;
-pub mod bound;
 pub mod control;
 pub mod effect;
 mod error;

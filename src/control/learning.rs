@@ -20,7 +20,7 @@
 //!
 //! The learned value of a cell is limited, and so is the mean over cells. Hence the feed-forward
 //! lies within ±limit for any input. *Convergence* depends on gain, lead, Q and the loop
-//! ([`bound::IterativeLearningConvergence`](crate::bound::IterativeLearningConvergence)).
+//! (`IterativeLearningConvergence` of `bowden-bound`).
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison

@@ -1,7 +1,7 @@
 //! The step is its line: what the certificates speak of is what is shipped, bit for bit.
 //!
 //! The lines below are written from the equations (18), (19), (23)-(26) and from the forward
-//! error analysis of `bound::PeakRounded`, with sums, filters and limits of their own.
+//! error analysis of `bowden_bound::PeakRounded`, with sums, filters and limits of their own.
 
 use super::Random;
 use bowden::control::{

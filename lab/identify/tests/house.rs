@@ -33,7 +33,10 @@ const DEPENDENCIES: [(&str, &[&str]); 6] = [
     ("page", &["bowden-lab", "bowden-trials"]),
     ("rig", &["bowden"]),
     ("synth", &[]),
-    ("trials", &["bowden", "bowden-lab", "bowden-rig"]),
+    (
+        "trials",
+        &["bowden", "bowden-bound", "bowden-lab", "bowden-rig"],
+    ),
 ];
 
 /// What draws tables and reads arguments; the program alone needs it.

@@ -2,12 +2,12 @@
 
 use super::lineup::RATE;
 use super::setup::Setup;
-use bowden::bound::{
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+use bowden::Error;
+use bowden_bound::{
     Certificate, Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, RmsSampled,
     Theorem1, Tightest,
 };
-use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
-use bowden::Error;
 use bowden_rig::RigConfig;
 use serde::Serialize;
 use std::collections::BTreeMap;

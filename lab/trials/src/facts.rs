@@ -32,7 +32,7 @@ pub use super::table::{smallest_error, told_of_limits, Line, Spread};
 pub use super::tolerance::Tolerance;
 pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
-pub use bowden::bound::Named;
+pub use bowden_bound::Named;
 
 /// Gain, leakage and box of one estimate of the adaptive law.
 pub type Estimate = bowden::control::Estimator<f64>;

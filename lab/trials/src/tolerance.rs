@@ -4,8 +4,8 @@
 use super::data_sheet::{nominal, shown};
 use super::lineup::{Laws, GAIT, RATE};
 use super::setup::Setup;
-use bowden::bound::{Interval, IterativeLearningConvergence, ObserverStability, PlantRange};
 use bowden::Error;
+use bowden_bound::{Interval, IterativeLearningConvergence, ObserverStability, PlantRange};
 use bowden_rig::RigConfig;
 use serde::Serialize;
 

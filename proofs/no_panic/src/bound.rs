@@ -2,9 +2,9 @@
 
 use crate::control::law;
 use crate::{any, never_panics};
-use bowden::bound::*;
 use bowden::control::{DisturbanceObserver, IterativeLearning, NominalPlant, Pid};
 use bowden::Real;
+use bowden_bound::*;
 use std::hint::black_box;
 
 pub fn all<T: Real>() -> Option<()> {

@@ -296,7 +296,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     ///
     /// `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is the plant's gain times the
     /// greatest beta_hat. Up to this step the map of the error does not decrease in s, and the box
-    /// theorem ([`PeakSampled`](crate::bound::PeakSampled)) holds. The method also accepts settings
+    /// theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings
     /// that [`Adaptive::try_new`](super::Adaptive::try_new) refuses, but their gains must be
     /// positive and finite.
     #[must_use]

@@ -72,7 +72,7 @@ fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_ra
         report["tolerance"]["share"].as_f64()
     };
     let own = share(&[]).unwrap();
-    // The tests of `bowden::bound` compare such figures with simulated plants.
+    // The tests of `bowden_bound` compare such figures with simulated plants.
     assert!((0.1..0.2).contains(&own), "{own}");
     let folder = tempfile::tempdir().unwrap();
     let with = |observer: &str| {

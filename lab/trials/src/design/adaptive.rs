@@ -9,8 +9,8 @@
 
 use super::plant::Plant;
 use crate::gains::Known;
-use bowden::bound::{Interval, PeakSampled, Plant as Bounds};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Fallback, Form, Limits};
+use bowden_bound::{Interval, PeakSampled, Plant as Bounds};
 use serde::Serialize;
 
 /// Half-width of a box where the model file has no interval, as a share of the value.

@@ -2,7 +2,7 @@
 
 use super::form::{Float, Form};
 use crate::decimal::{digits, places};
-use bowden::bound::{Inequality, Named};
+use bowden_bound::{Inequality, Named};
 
 /// In one sentence. Its numbers are rounded to the safe side, to three digits.
 pub(super) fn words(form: &Form, inequality: &Inequality) -> String {

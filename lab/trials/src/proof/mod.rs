@@ -5,14 +5,14 @@ mod form;
 mod mend;
 mod written;
 
-pub(crate) use bowden::bound::Named;
+pub(crate) use bowden_bound::Named;
 pub use form::Float;
 pub use written::{coq, gappa};
 
 use super::gains::{is_of_design, message, GainsFile};
-use bowden::bound::{Dyadic, Inequality, Interval, Kind, Known, PeakRounded, Plant};
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Limits};
 use bowden::{Error, Real};
+use bowden_bound::{Dyadic, Inequality, Interval, Kind, Known, PeakRounded, Plant};
 use form::Form;
 use serde::Serialize;
 use std::path::Path;
@@ -353,7 +353,7 @@ fn proof<T: Real, const N: usize>(
 ) -> Proof {
     let float = |x: T| Dyadic::of(x).to_string();
     let real = |x: f64| Dyadic::of(x).to_string();
-    let number = |x: bowden::bound::Enclosure| Number::from(x.high());
+    let number = |x: bowden_bound::Enclosure| Number::from(x.high());
     let range = |estimator: &Estimator<T>| [float(estimator.low), float(estimator.high)];
     let pairs = settings.theta.iter().zip(&plant.regressors);
     let rounded = &examined.roundings;
@@ -417,7 +417,7 @@ fn proof<T: Real, const N: usize>(
 /// Those of the theorem, and what stands for the adaptation that a file does not state.
 fn assumptions() -> Vec<&'static str> {
     let kind = Kind::PeakRounded;
-    let certificate = bowden::bound::Certificate { kind, value: 0.0 };
+    let certificate = bowden_bound::Certificate { kind, value: 0.0 };
     let mut all = certificate.assumptions().to_vec();
     all.push(
         "adaptation gains and leakages [1/s] are at most 2^30, and each prior lies within its bounds",

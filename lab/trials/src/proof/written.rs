@@ -4,7 +4,7 @@
 //! floats, a little on the safe side, and rounded to few bits.
 
 use super::{Float, Proof};
-use bowden::bound::{Dyadic, Enclosure};
+use bowden_bound::{Dyadic, Enclosure};
 use std::collections::BTreeMap;
 
 /// The theorem over the reals, which a certificate for Coq holds whole.

@@ -36,7 +36,7 @@ fn its_gains_are_half_of_what_the_constructor_admits() {
 
 #[test]
 fn the_certificate_is_the_shipped_one_of_the_plant_that_the_model_describes() {
-    use bowden::bound::{Interval, PeakSampled, Plant};
+    use bowden_bound::{Interval, PeakSampled, Plant};
     let term = "[[terms]]\neffect = \"viscous\"\nsource = \"phi_p\"\ngain = -0.1\n";
     let text = model([0.9, 2.0, 0.05, 0.2, 0.6, 2.0], term)
         + "[about.ranges.phi_p]\nposition = [-1.0, 1.0]\nvelocity = [-2.0, 3.0]\nacceleration = [-9.0, 9.0]\n\

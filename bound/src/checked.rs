@@ -1,0 +1,21 @@
+//! Checks of numbers, with the parameter's name in the error.
+
+use bowden::{Error, Real};
+
+/// A finite number; refuses NaN and infinities.
+pub(crate) fn finite<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::NonFinite(name))
+    }
+}
+
+/// A finite number above zero.
+pub(crate) fn above_zero<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
+    if finite(value, name)? > T::ZERO {
+        Ok(value)
+    } else {
+        Err(Error::OutOfRange(name))
+    }
+}

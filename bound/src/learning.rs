@@ -1,0 +1,209 @@
+//! Convergence of iterative learning from cycle to cycle, over a range of plants.
+
+use super::halving::Halving;
+use super::observer::proportional_and_integral;
+use super::plant::ordered;
+use super::plants::PlantRange;
+use super::span::Span;
+use super::Interval;
+use alone::Loop;
+use bowden::control::{IterativeLearning, Pid};
+use bowden::{Error, Real};
+use cycle::{Boxed, Cycle};
+
+mod alone;
+mod cycle;
+
+/// Most regions of a proof: a second or less on a computer.
+const MOST_BOXES: u32 = 500_000;
+
+/// Most halvings of a region.
+const MOST_HALVINGS: u32 = 80;
+
+/// Convergence of iterative learning, in addition to a P or PI, on every plant of a range.
+///
+/// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)`
+/// be the transfer function from feed-forward to measured output. The factor of a tone of the
+/// learning error over one cycle is
+///
+/// ```text
+/// H = Q·(1 − forgetting − gain·e^(jw·lead·T)·Σ S(w·T/2 + pi·k)³·G(j(w + 2·pi·k/T)))
+/// ```
+/// T is the time of a cell. `S(x) = sin(x)/x` describes the mean over a cell and, squared, the
+/// linear interpolation between two cells. The sum over all whole numbers k contains their images,
+/// and Q is the filter of [`IterativeLearning`]. The certificate proves for every plant and every
+/// cycle time of the range:
+/// - The loop without learning is stable, by zero exclusion as in
+///   [`ObserverStability`](super::ObserverStability).
+/// - `|H| <= factor` at every frequency from the cycle's own frequency to the Nyquist frequency
+///   of the cells, including frequencies between the harmonics. With a P this holds from zero
+///   on.
+/// - With a PI, `|H| < 1` between zero and the cycle's own frequency.
+///
+/// The proof uses intervals that are rounded outwards and bisected until they show the inequality.
+/// In the images `|G|` is at most its bound above the cells' Nyquist frequency, and their total
+/// factor is at most `0.32·|sin(w·T/2)|³`.
+///
+/// The error therefore converges to its limit e* from any start. *Proof.* In cell time the learned
+/// feed-forward is `z⁻ⁿ·H` times its value n cells before, plus external inputs. This operator is
+/// causal, as `lead + half_width + 1 < n`. It is as stable as the loop, and its magnitude is below
+/// 1 on the unit circle. The magnitude is therefore below 1 everywhere outside the circle, so `1 −
+/// z⁻ⁿ·H` has no zero there. With a PI without forgetting it is 1 at `z = 1`: the learned mean and
+/// the integral of the law are interchangeable. The output shows neither. ∎
+///
+/// A tone of `e − e*` falls by a factor of about |H| from cycle to cycle. The factor is exact
+/// if the change of a cycle has settled before the next one. At harmonics e* is zero if
+/// forgetting is zero and Q is one. If Q is small, e* may be *larger* than the error without
+/// learning.
+///
+/// Further assumptions:
+/// - one constant cycle time, and a phase that is uniform in time;
+/// - a plant of this form;
+/// - many samples per cell;
+/// - friction and load repeat, or they are bounded disturbances (learning cannot remove these, and
+///   a part of them returns one cycle later);
+/// - no limit is active, neither of the command nor of the learned values, and no sample is
+///   bad.
+///
+/// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
+/// slope that changes along the path.
+///
+/// If no proof was found, the number of regions may have been too small rather than the range
+/// too wide.
+///
+/// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
+/// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.
+///
+/// ```
+/// use bowden_bound::{Interval, IterativeLearningConvergence, PlantRange};
+/// use bowden::control::{IterativeLearning, Pid, PidSettings};
+/// // 250 cells of a gait of 1 s: 12 ms ahead, Q of 16 Hz.
+/// let learning = IterativeLearning::try_new(4.0_f32, 30.0, 3, 4)?;
+/// let pi = Pid::try_new(PidSettings::unlimited(30.0, 18.0))?;
+/// let within = |x: f64, share: f64| Interval { low: x * (1.0 - share), high: x * (1.0 + share) };
+/// let range = PlantRange {
+///     gain: within(0.6, 0.05),
+///     natural_frequency: within(25.5, 0.025),
+///     damping_ratio: within(0.265, 0.05),
+///     joint: within(0.0033, 0.05), // 0.5 N·m·s/rad over 150 N·m/rad
+///     slope: Interval { low: 0.33, high: 1.0 },
+///     latency: within(0.003, 0.05),
+/// };
+/// let gait = within(1.0, 0.1); // \[s\]
+/// assert!(IterativeLearningConvergence::try_new(&learning, 250, &gait, &pi, &range, 0.92).is_ok());
+/// // Without a lead the tones near the loop's own resonance would grow.
+/// let late = IterativeLearning::try_new(4.0_f32, 30.0, 0, 4)?;
+/// assert!(IterativeLearningConvergence::try_new(&late, 250, &gait, &pi, &range, 1.0).is_err());
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct IterativeLearningConvergence {
+    /// The plants of the certificate.
+    pub plants: PlantRange,
+    /// The cycle times of the certificate \[s\].
+    pub cycle: Interval<f64>,
+    /// Upper bound on |H| from the cycle's own frequency on, with a P from zero on; below that
+    /// frequency |H| is less than one.
+    pub factor: f64,
+    /// Number of regions of plants, cycle times and frequencies in the proof.
+    pub boxes: u32,
+}
+
+impl IterativeLearningConvergence {
+    /// Proves convergence with `|H| <= factor` from the cycle's own frequency on.
+    ///
+    /// `cells` is the length of the learning's buffers, `cycle` the range of the cycle time
+    /// \[s\].
+    ///
+    /// # Errors
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the range, the
+    ///   `"cycle"` or the `"factor"`.
+    /// - [`Error::Inadmissible`] if the law is no P or PI, or if the loop without learning is
+    ///   not shown to be stable.
+    /// - [`Error::Inadmissible`] if there are too few cells for lead and filter, or so few that
+    ///   the loop responds above their Nyquist frequency.
+    /// - [`Error::Inadmissible`] if no proof was found: on some plant a tone of the learning
+    ///   error grows, or decays more slowly.
+    pub fn try_new<T: Real>(
+        learning: &IterativeLearning<T>,
+        cells: usize,
+        cycle: &Interval<f64>,
+        law: &Pid<T>,
+        plants: &PlantRange,
+        factor: f64,
+    ) -> Result<Self, Error> {
+        plants.check()?;
+        ordered(cycle, "cycle")?;
+        if cycle.low <= 0.0 {
+            return Err(Error::OutOfRange("cycle"));
+        }
+        if !(factor > 0.0 && factor <= 1.0) {
+            return Err(Error::OutOfRange("factor"));
+        }
+        learning.check_cells(cells)?;
+        let (k_p, k_i) = proportional_and_integral(law.settings())?;
+        let all = plants.all(0.0);
+        let closed = Loop {
+            k_p,
+            k_i,
+            natural_frequency: all.natural_frequency.middle(),
+        };
+        let stable = closed.is_stable(&all).ok_or(Error::Inadmissible(
+            "the loop without learning must be stable with every plant of the range",
+        ))?;
+        let count = Span::at(cells as f64);
+        let cell = Span {
+            low: (Span::at(cycle.low) * count.recip()).low,
+            high: (Span::at(cycle.high) * count.recip()).high,
+        };
+        let beyond = closed.beyond(&all, cell).ok_or(Error::Inadmissible(
+            "the loop must hardly respond above the cells' Nyquist frequency",
+        ))?;
+        let turn = Span::at(core::f64::consts::TAU);
+        let own = |cycle: f64| turn * Span::at(cycle).recip();
+        let phase = (Span::at(core::f64::consts::PI) * count.recip()).low;
+        // Without an integral the mean is learned as well, and decays like the rest.
+        let (lowest, least) = match k_i == 0.0 {
+            true => (0.0, 0.0),
+            false => (own(cycle.high).low, phase),
+        };
+        let proof = Cycle {
+            closed: &closed,
+            gain: learning.gain().as_f64(),
+            kept: Span::at(1.0) - Span::at(learning.forgetting().as_f64()),
+            lead: f64::from(learning.lead()),
+            width: f64::from(learning.half_width()) + 1.0,
+            factor,
+            half_phases: Span {
+                low: least,
+                high: Span::outward(0.0, core::f64::consts::FRAC_PI_2).high,
+            },
+            images: (Span::at(learning.gain().as_f64().abs()) * Span::at(beyond)).high,
+        };
+        let at = |low: f64, high: f64| Boxed {
+            frequency: Span { low, high },
+            cell,
+            plants: all,
+        };
+        let half = Span::at(core::f64::consts::PI) * Span::at(cell.low).recip();
+        let mut halving = Halving::at_most(MOST_BOXES, MOST_HALVINGS);
+        let halves = |of: &Boxed| proof.halves(of);
+        let to_nyquist = at(lowest, half.high);
+        let below = at(0.0, own(cycle.low).high);
+        let shrinks = halving.all(&to_nyquist, &|of| proof.is_small(of), &halves)
+            && (k_i == 0.0 || halving.all(&below, &|of| proof.is_below_one(of), &halves));
+        if !shrinks {
+            return Err(Error::Inadmissible(
+                "every tone must shrink by the factor on every plant of the range",
+            ));
+        }
+        Ok(Self {
+            plants: *plants,
+            cycle: *cycle,
+            factor,
+            boxes: stable.saturating_add(halving.boxes),
+        })
+    }
+}

@@ -1,0 +1,127 @@
+//! The peak certificate in continuous time.
+
+use super::truth::{bounded, literal, loop_gain, mismatch};
+use super::{Certificate, Interval, Kind, Plant};
+use bowden::control::Adaptive;
+use bowden::{Error, Real};
+
+/// Peak of the error in continuous time, with bounds on the estimates.
+///
+/// Let `g = alpha·beta_hat` and `w = (g-1)·y_r + (g·theta_hat - theta)'x - D`. The law as
+/// published is
+///
+/// ```text
+/// s' = (lambda/g)·(w - g·delta_hat·T(s/eps)) - lambda·(k - 1 + 1/g)·s - (1 + lambda²·(1 - 1/g))·z
+/// z' = s - lambda·z
+/// ```
+///
+/// On the box `|s| <= S`, `|z| <= S/lambda` the worst corner is the one where z drives s
+/// outwards. The box is therefore invariant and attractive for `S = sup |w|/(g·kappa)`. Here
+/// kappa is `k + 1/lambda²` if `g <= lambda²/(1 + lambda²)`, otherwise
+/// `k - 1/lambda² + 2·(1/g - 1)`. Then `|e| <= |s| + lambda·|z| <= 2·S`.
+///
+/// Assumptions:
+/// - the law as published in continuous time with e' known;
+/// - the plant (11) with alpha and theta in the given intervals, and `|D| <= Delta`;
+/// - `|y_r|` and `|x_i|` within the given limits;
+/// - the bounds on beta_hat above zero, the bounds on delta_hat not below zero;
+/// - no active limit.
+///
+/// The true values need not lie within the bounds, and the estimates may move freely within
+/// them.
+///
+/// ```
+/// use bowden_bound::{PeakContinuous, Plant};
+/// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+/// let literal = Form::AsPublished { time_constant: 0.005 };
+/// let law = Adaptive::try_new(AdaptiveSettings {
+///     beta: Estimator::fixed(1.0), // alpha is known: g = 1
+///     delta: Estimator::fixed(7.0).within(0.0, 8.0).adapting(0.00625, 0.01),
+///     ..AdaptiveSettings::<f64, 0>::unlimited(literal, 24.0, 8.0, 0.05)
+/// })?;
+/// let peak = PeakContinuous::try_new(&law, &Plant::new(1.0, 7.056))?;
+/// assert!((peak.bound - 0.588).abs() < 0.0005); // 2·7.056/(24 - 1/64) [N·m]
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PeakContinuous<T> {
+    /// S \[N·m\]: limsup of `|s|`, and of lambda·`|z|`.
+    pub s: T,
+    /// 2·S \[N·m\]: limsup of `|e|`.
+    pub bound: T,
+}
+
+impl<T: Real> PeakContinuous<T> {
+    /// The certificate of a law on a plant.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds on the estimates are
+    /// too wide or k is too small for a bound.
+    pub fn try_new<const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<T, N>,
+    ) -> Result<Self, Error> {
+        plant.check()?;
+        literal(law)?;
+        let settings = law.settings();
+        let g = loop_gain(law, plant)?;
+        let squared = settings.lambda * settings.lambda;
+        // g·kappa is linear in g on either side of the kink, so least at one of three.
+        let kink = squared / (T::one() + squared);
+        let mut stiffness = g_kappa(settings.gain, squared, g.low);
+        for at in [kink, g.high] {
+            if g.low <= at && at <= g.high {
+                let here = g_kappa(settings.gain, squared, at);
+                if here < stiffness {
+                    stiffness = here;
+                }
+            }
+        }
+        if stiffness <= T::zero() {
+            return Err(Error::Inadmissible("k > 1/lambda² - 2*(1/g - 1)"));
+        }
+        let s = bounded(push(law, plant, g, plant.reference) / stiffness)?;
+        Ok(Self {
+            s,
+            bound: bounded(T::from_f64(2.0) * s)?,
+        })
+    }
+
+    /// 2·S as a certificate.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<T> {
+        Certificate {
+            kind: Kind::PeakContinuous,
+            value: self.bound,
+        }
+    }
+}
+
+/// g·kappa(g).
+fn g_kappa<T: Real>(gain: T, squared: T, g: T) -> T {
+    let inverse = T::one() / squared;
+    if g * (T::one() + squared) <= squared {
+        g * (gain + inverse)
+    } else {
+        g * (gain - inverse) + T::from_f64(2.0) * (T::one() - g)
+    }
+}
+
+/// Greatest `|w| = |(g-1)·reference + (g·theta_hat - theta)'x - D|` \[N·m\].
+pub(super) fn push<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    plant: &Plant<T, N>,
+    g: Interval<T>,
+    reference: T,
+) -> T {
+    let detuning = g.max_distance_from(T::one());
+    // Without a reference, an unbounded g does no harm: 0·inf would be NaN.
+    let reference = if reference == T::zero() {
+        T::zero()
+    } else {
+        detuning * reference
+    };
+    reference + mismatch(law, plant, g) + plant.delta
+}

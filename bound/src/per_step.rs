@@ -1,0 +1,170 @@
+//! Theorem 1 in sampled time: the Lyapunov function from step to step.
+
+use super::truth::{adapting, bounded, range, sum};
+use super::{Certificate, Interval, Kind, PeakSampled, Plant};
+use bowden::control::{Adaptive, Form, Leakage};
+use bowden::{Error, Real};
+
+/// `V⁺ <= (1 - h·rate)·V + h·input` for the first-order form: Theorem 1 in sampled time.
+///
+/// Here `V = s²/2 + z²/2 + sum c_p·(1 + h·sigma_p)·(p* - p_hat)²/(2·m_p)` over beta (c =
+/// alpha), delta and the thetas (c = 1). The implicit leakage requires the factor (1 +
+/// h·sigma): with it the cross terms cancel as in (28), exactly. A clamp to bounds that contain
+/// the true value cannot raise V. The remaining terms are:
+///
+/// - `rate = min(2·lambda, k·lambda, sigma_p/(1 + h·sigma_p))`: half of k·lambda·s² compensates
+///   xi;
+/// - `input = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target +
+///   lambda·S·(Delta - target) + Xi²/(2·k·lambda) + (h/2)·R`,
+///   where target is Delta or the upper bound of delta_hat below Delta. R bounds the second
+///   order in the box of [`PeakSampled`]: `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
+///
+/// Further assumptions, in addition to those of [`PeakSampled`]:
+/// - the errors lie in its box;
+/// - every sample takes the step h of the form;
+/// - leakage is constant;
+/// - the bounds on the estimates contain the true values;
+/// - `h·rate <= 1`.
+///
+/// As in Theorem 1, the inequality bounds all errors, so the bound on the tracking error is loose.
+///
+/// ```
+/// use bowden_bound::{PerStep, Plant};
+/// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+/// let lag = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
+/// let law = Adaptive::try_new(AdaptiveSettings {
+///     beta: Estimator::fixed(1.0).within(0.95, 1.05).adapting(2.5e-4, 0.01),
+///     delta: Estimator::fixed(7.0).within(0.0, 7.056).adapting(0.00625, 0.01),
+///     ..AdaptiveSettings::<f64, 0>::unlimited(lag, 24.0, 8.0, 0.2)
+/// })?;
+/// let step = PerStep::try_new(&law, &Plant::new(1.0, 7.056))?;
+/// assert!((step.rate - 0.01 / 1.00001).abs() < 1e-12); // the leakage [1/s]
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PerStep<T> {
+    /// The box of the errors in which the inequality holds.
+    pub within: PeakSampled<T>,
+    /// h \[s\].
+    pub step: T,
+    /// Decay rate of V \[1/s\].
+    pub rate: T,
+    /// Input rate of V \[(N·m)²/s\].
+    pub input: T,
+    /// Reference value of delta_hat in V \[N·m\].
+    pub target: T,
+    lambda: T,
+}
+
+impl<T: Real> PerStep<T> {
+    /// The inequality of a law on a plant.
+    ///
+    /// # Errors
+    /// The same as [`PeakSampled::try_new`], and [`Error::Inadmissible`] with the violated
+    /// assumption.
+    pub fn try_new<const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<T, N>,
+    ) -> Result<Self, Error> {
+        let within = PeakSampled::try_new(law, plant)?;
+        let settings = law.settings();
+        let Form::FirstOrder { step, .. } = settings.form else {
+            return Err(Error::Inadmissible("the gains must have the lag form"));
+        };
+        let (gain, lambda, two) = (settings.gain, settings.lambda, T::from_f64(2.0));
+        let mut rate = if gain < two {
+            gain * lambda
+        } else {
+            two * lambda
+        };
+        let leaking = [settings.beta, settings.delta];
+        for estimator in leaking.iter().chain(&settings.theta) {
+            if range(estimator, settings.frozen).low == range(estimator, settings.frozen).high {
+                continue;
+            }
+            let Leakage::Constant { rate: sigma } = estimator.leakage else {
+                return Err(Error::Inadmissible(
+                    "the leakage of every estimate must be constant",
+                ));
+            };
+            let lost = sigma / (T::one() + step * sigma);
+            if lost < rate {
+                rate = lost;
+            }
+        }
+        if rate <= T::zero() || step * rate > T::one() {
+            return Err(Error::Inadmissible("leakage > 0 and h*rate <= 1"));
+        }
+        let deltas = range(&settings.delta, settings.frozen);
+        // A constant estimate is measured against itself, also above Delta.
+        let target = if deltas.high < plant.delta || deltas.low == deltas.high {
+            deltas.high
+        } else {
+            plant.delta
+        };
+        // (p* - p0)²·sigma/(2·m) is twice the residue; v² of beta and theta follow below.
+        let mut input = two * sum(law, plant, |estimate| Ok(estimate.residue()))?;
+        let mut second_order = second_order(law, plant, &within);
+        let truth = Interval::exactly(target);
+        if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
+            input += two * delta.residue();
+            let v = lambda * within.s;
+            second_order += delta.gain * v * v;
+        }
+        input += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * target;
+        if target < plant.delta {
+            input += lambda * within.s * (plant.delta - target);
+        }
+        input += within.xi * within.xi / (two * gain * lambda);
+        input += step * second_order / two;
+        Ok(Self {
+            within,
+            step,
+            rate,
+            input: bounded(input)?,
+            target,
+            lambda,
+        })
+    }
+
+    /// The resulting bound on limsup `|e|`: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<T> {
+        let v = self.input / self.rate;
+        Certificate {
+            kind: Kind::PerStep,
+            value: (T::one() + self.lambda) * (T::from_f64(2.0) * v).sqrt(),
+        }
+    }
+}
+
+/// R without the part of delta_hat, at worst in the box.
+pub(super) fn second_order<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    plant: &Plant<T, N>,
+    within: &PeakSampled<T>,
+) -> T {
+    let settings = law.settings();
+    let (lambda, s, g) = (settings.lambda, within.s, within.g.high);
+    let delta = range(&settings.delta, settings.frozen).high;
+    let ds =
+        lambda * g * (settings.gain * s + delta) + g * s / lambda + lambda * within.w + within.xi;
+    let dz = T::from_f64(2.0) * s;
+    let mut rest = ds * ds + dz * dz;
+    let mut virtual_command = settings.gain * s
+        + s / (lambda * lambda)
+        + plant.reference
+        + plant.reference_rate / lambda
+        + delta;
+    for (theta, known) in settings.theta.iter().zip(&plant.regressors) {
+        let estimate = range(theta, settings.frozen).magnitude();
+        let v = lambda * s * known.magnitude;
+        if known.magnitude > T::zero() {
+            virtual_command += estimate * known.magnitude;
+            rest += theta.gain * v * v;
+        }
+    }
+    let v = lambda * s * virtual_command;
+    rest + plant.alpha.high * settings.beta.gain * v * v
+}

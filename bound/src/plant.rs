@@ -1,0 +1,166 @@
+//! Known ranges of the plant `y = alpha·u - theta'x - D`, (11).
+
+use crate::checked::finite;
+use bowden::{Error, Real};
+
+/// Interval of a plant constant.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Interval<T> {
+    /// Least value \[unit of the constant\].
+    pub low: T,
+    /// Greatest value \[unit of the constant\].
+    pub high: T,
+}
+
+impl<T: Real> Interval<T> {
+    /// A constant with a known value.
+    #[must_use]
+    pub fn exactly(value: T) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    /// The interval between two values, in any order.
+    ///
+    /// ```
+    /// use bowden_bound::Interval;
+    /// assert_eq!(Interval::between(2.0, -1.0), Interval { low: -1.0, high: 2.0 });
+    /// ```
+    #[must_use]
+    pub fn between(a: T, b: T) -> Self {
+        if a < b {
+            Self { low: a, high: b }
+        } else {
+            Self { low: b, high: a }
+        }
+    }
+
+    /// Greatest magnitude in the interval.
+    #[must_use]
+    pub fn magnitude(&self) -> T {
+        self.max_distance_from(T::zero())
+    }
+
+    /// Greatest distance from `point` in the interval.
+    #[must_use]
+    pub fn max_distance_from(&self, point: T) -> T {
+        let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
+        if low > high {
+            low
+        } else {
+            high
+        }
+    }
+}
+
+/// Known ranges of one regressor and its coefficient.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Known<T> {
+    /// Interval of theta_i \[N·m/unit of the regressor\].
+    pub theta: Interval<T>,
+    /// Greatest `|x_i|` \[unit of the regressor\]; only peak certificates read it.
+    pub magnitude: T,
+    /// Greatest rate of x_i \[unit/s\]; only sampled certificates read it.
+    pub rate: T,
+}
+
+/// Known ranges of the plant and its task: the input of every certificate.
+///
+/// ```
+/// use bowden_bound::{Interval, Plant};
+/// let plant = Plant {
+///     alpha: Interval { low: 0.95, high: 1.05 },
+///     reference: 38.0,      // [N·m]
+///     reference_rate: 22.3, // [N·m/s]
+///     delta_rate: 45.7,     // [N·m/s]
+///     ..Plant::<f64, 0>::new(1.0, 7.056)
+/// };
+/// assert_eq!(plant.delta, 7.056);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Plant<T, const N: usize> {
+    /// Gain alpha = B·N·A \[N·m/command unit\], above zero.
+    pub alpha: Interval<T>,
+    /// Bound Delta of `|D|` \[N·m\]: `kappa_eta + |T0| + |d|`, (12).
+    pub delta: T,
+    /// Bound on the rate of D \[N·m/s\]; only sampled certificates read it.
+    ///
+    /// For the hysteresis this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
+    /// 2·sigma). Here f is the steepest slope of eta in tau_i, since
+    /// `tau_i' = y'/(B - kappa_eta·f)` at worst. For the first set of Nguyen et al. (2018) with
+    /// sigma = 1/2, and for the paper's reference, `|y_r'| <= 22.24 N·m/s`, the rate is 45.7 N·m/s
+    /// if y follows y_r.
+    pub delta_rate: T,
+    /// Coefficients and regressors.
+    pub regressors: [Known<T>; N],
+    /// Greatest `|y_r|` \[N·m\]; only peak certificates read it.
+    pub reference: T,
+    /// Greatest `|y_r'|` \[N·m/s\]; only sampled certificates read it.
+    pub reference_rate: T,
+}
+
+impl<T: Real, const N: usize> Plant<T, N> {
+    /// A plant with a known alpha \[N·m/command unit\] and `|D| <= delta` \[N·m\]; all other fields
+    /// are zero.
+    #[must_use]
+    pub fn new(alpha: T, delta: T) -> Self {
+        Self {
+            alpha: Interval::exactly(alpha),
+            delta,
+            delta_rate: T::zero(),
+            regressors: [Known::default(); N],
+            reference: T::zero(),
+            reference_rate: T::zero(),
+        }
+    }
+
+    /// Refuses numbers that cannot describe a plant.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        ordered(&self.alpha, "alpha")?;
+        if self.alpha.low <= T::zero() {
+            return Err(Error::OutOfRange("alpha"));
+        }
+        not_negative(self.delta, "delta")?;
+        not_negative(self.delta_rate, "delta_rate")?;
+        not_negative(self.reference, "reference")?;
+        not_negative(self.reference_rate, "reference_rate")?;
+        for known in &self.regressors {
+            ordered(&known.theta, "theta")?;
+            not_negative(known.magnitude, "magnitude")?;
+            not_negative(known.rate, "rate")?;
+        }
+        Ok(())
+    }
+
+    /// Sum of `|theta_i|` times what `of` takes from regressor i.
+    pub(super) fn weighted(&self, of: impl Fn(&Known<T>) -> T) -> T {
+        let each = self.regressors.iter();
+        each.fold(T::zero(), |sum, known| {
+            sum + known.theta.magnitude() * of(known)
+        })
+    }
+}
+
+pub(super) fn ordered<T: Real>(interval: &Interval<T>, name: &'static str) -> Result<(), Error> {
+    finite(interval.low, name)?;
+    if interval.low > finite(interval.high, name)? {
+        return Err(Error::OutOfRange(name));
+    }
+    Ok(())
+}
+
+fn not_negative<T: Real>(value: T, name: &'static str) -> Result<(), Error> {
+    if finite(value, name)? < T::zero() {
+        return Err(Error::OutOfRange(name));
+    }
+    Ok(())
+}

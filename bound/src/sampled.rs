@@ -1,0 +1,128 @@
+//! The box theorem: the peak certificate of the first-order form in sampled time.
+
+use super::peak::push;
+use super::truth::{bounded, loop_gain};
+use super::{Certificate, Interval, Kind, Plant};
+use bowden::control::{Adaptive, Form};
+use bowden::{Error, Real};
+
+/// The box theorem: peak of the error of the first-order form in sampled time.
+///
+/// The closed loop is exactly [`LagRecursion`](bowden::control::LagRecursion). Let `W >= |w|`,
+/// `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold for every sample, with estimates anywhere within
+/// their bounds. **If** `h·lambda <= 1`, `h·lambda·g⁺·(k + delta_max/eps) <= 1` and
+/// `k > 1/lambda²`, **then** the box `|s| <= S`, `|z| <= S/lambda` with
+/// `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is invariant and attractive, and
+/// `|e| <= |s| + lambda·|z| <= 2·S`.
+///
+/// *Proof.* By the first condition `z⁺ = (1 - h·lambda)·z + h·s` stays in the box. By the second
+/// condition, `f(s) = s - h·lambda·g·(k·s + delta_hat·T(s/eps))` does not decrease (the slope of T
+/// is at most one). It is odd, so `|f(s)| <= f(S) <= S - h·lambda·g·k·S`. Then `|s⁺| <= S -
+/// h·lambda·g·k·S + h·g·S/lambda + h·lambda·W + h·Xi <= S`. Outside, at m·S with m > 1, the same
+/// line loses at least `h·lambda·g·(k - 1/lambda²)·(m - 1)·S`. ∎
+///
+/// The theorem requires that s uses z of the previous sample; if z is updated first, the recursion
+/// is different. The worst corner is `s = S, z = -S/lambda`, and the bound is tight: the worst
+/// disturbance reaches more than 0.99·S (test `bound`).
+///
+/// Further assumptions:
+/// - the plant (11) has no dynamics, and y belongs to u of the previous sample;
+/// - alpha and theta are constant and lie in the given intervals;
+/// - D, y_r and x and their changes lie within the given limits;
+/// - the next reference is the true one;
+/// - no limit is active.
+///
+/// The true values need not lie within the bounds on the estimates.
+///
+/// ```
+/// use bowden_bound::{Interval, PeakSampled, Plant};
+/// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+/// let lag = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
+/// let law = Adaptive::try_new(AdaptiveSettings {
+///     beta: Estimator::fixed(1.0).within(0.95, 1.05).adapting(2.5e-4, 0.01),
+///     delta: Estimator::fixed(7.0).within(0.0, 7.056).adapting(0.00625, 0.01),
+///     ..AdaptiveSettings::<f64, 0>::unlimited(lag, 24.0, 8.0, 0.2)
+/// })?;
+/// let plant = Plant {
+///     delta_rate: 45.7, // [N·m/s]
+///     reference: 38.0, // [N·m]
+///     reference_rate: 22.24, // [N·m/s]
+///     ..Plant::new(1.0, 7.056)
+/// };
+/// assert!((PeakSampled::try_new(&law, &plant)?.bound - 1.30).abs() < 0.005); // [N·m]
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PeakSampled<T> {
+    /// W \[N·m\]: greatest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
+    pub w: T,
+    /// Xi \[N·m/s\]: greatest rate of `D + theta'x`.
+    pub xi: T,
+    /// Least and greatest g = alpha·beta_hat.
+    pub g: Interval<T>,
+    /// S \[N·m\]: the box is `|s| <= S`, `|z| <= S/lambda`.
+    pub s: T,
+    /// 2·S \[N·m\]: `|e|` at every sample.
+    pub bound: T,
+    /// Greatest `|u|` in the box \[command unit\]; the limits must allow it.
+    pub command: T,
+}
+
+impl<T: Real> PeakSampled<T> {
+    /// The certificate of a law on a plant.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds on the estimates are
+    /// too wide for a bound.
+    pub fn try_new<const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<T, N>,
+    ) -> Result<Self, Error> {
+        plant.check()?;
+        let settings = law.settings();
+        let Form::FirstOrder { plant_gain, .. } = settings.form else {
+            return Err(Error::Inadmissible("the gains must have the lag form"));
+        };
+        if plant.alpha.high > plant_gain {
+            return Err(Error::Inadmissible("alpha <= plant_gain of the lag form"));
+        }
+        let lambda = settings.lambda;
+        let stiffness = settings.gain - T::one() / (lambda * lambda);
+        if stiffness <= T::zero() {
+            return Err(Error::Inadmissible("k > 1/lambda²"));
+        }
+        let g = loop_gain(law, plant)?;
+        let w = push(
+            law,
+            plant,
+            g,
+            plant.reference + plant.reference_rate / lambda,
+        );
+        let xi = plant.delta_rate + plant.weighted(|known| known.rate);
+        let s = bounded((w + xi / lambda) / (g.low * stiffness))?;
+        if settings.z_limit < s / lambda {
+            return Err(Error::Inadmissible("z_limit >= S/lambda"));
+        }
+        let two = T::from_f64(2.0);
+        let torque = plant.reference + two * s + plant.delta + plant.weighted(|x| x.magnitude);
+        Ok(Self {
+            w,
+            xi,
+            g,
+            s,
+            bound: bounded(two * s)?,
+            command: torque / plant.alpha.low,
+        })
+    }
+
+    /// 2·S as a certificate.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<T> {
+        Certificate {
+            kind: Kind::PeakSampled,
+            value: self.bound,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Theorem 1 of Nguyen et al. (2018), with the paper's constants.
+
+use super::truth::{adapting, bounded, literal, stays, sum};
+use super::{Certificate, Interval, Kind, Plant};
+use bowden::control::{Adaptive, Leakage};
+use bowden::{Error, Real};
+
+/// Theorem 1's phi, theta, delta and (1 + lambda)·delta, (34)-(38).
+///
+/// With `V = s²/2 + z²/2 + alpha·beta~²/(2·gamma) + Delta~²/(2·mu) + sum theta~_i²/(2·mu_i)`
+/// (27), the law gives `V' <= -theta·V + phi` (34). Therefore limsup `|s|` and limsup `|z|` are
+/// at most `delta = sqrt(2·phi/theta)`, and limsup `|e| <= (1 + lambda)·delta`. A prior p0
+/// replaces p* by `p* - p0` in phi.
+///
+/// Assumptions:
+/// - the law as published in continuous time with e' known;
+/// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
+///   every time;
+/// - constant leakage above zero and a gain above zero in every estimate;
+/// - bounds on the estimates, if any, that contain the true values;
+/// - no active limit.
+///
+/// The algebra (27)-(34) is correct, but the bound is vacuous: leakage is by far the slowest rate,
+/// so theta is very small and delta very large.
+///
+/// ```
+/// use bowden_bound::{Plant, Theorem1};
+/// use bowden::control::Adaptive;
+/// let bound = Theorem1::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0_f64))?;
+/// assert!((bound.phi - 79.98).abs() < 0.005);
+/// assert_eq!(bound.theta, 0.01);
+/// assert!((bound.delta - 126.47).abs() < 0.01);
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Theorem1<T> {
+    /// phi \[(N·m)²/s\], below (34).
+    pub phi: T,
+    /// theta \[1/s\]: the slowest of 2·lambda, 2·k·lambda and the leakages.
+    pub theta: T,
+    /// delta = sqrt(2·phi/theta): limsup of `|s|` \[N·m\] and of `|z|` \[N·m·s\].
+    pub delta: T,
+    /// (1 + lambda)·delta \[N·m\]: limsup of `|e|`, (38).
+    pub bound: T,
+}
+
+impl<T: Real> Theorem1<T> {
+    /// The constants of a law on a plant.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::Inadmissible`] with the violated assumption.
+    pub fn try_new<const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<T, N>,
+    ) -> Result<Self, Error> {
+        plant.check()?;
+        literal(law)?;
+        let settings = law.settings();
+        let two = T::from_f64(2.0);
+        let lambda = settings.lambda;
+        let mut theta = two * lambda;
+        let mut slowest = |rate: T| {
+            if rate < theta {
+                theta = rate;
+            }
+        };
+        slowest(two * settings.gain * lambda);
+        let leaking = [settings.beta, settings.delta];
+        for estimator in leaking.iter().chain(&settings.theta) {
+            // An estimate at the true value is no part of V, and a lower one is refused
+            // elsewhere.
+            if stays(estimator, settings.frozen) {
+                continue;
+            }
+            match estimator.leakage {
+                Leakage::Constant { rate } if rate > T::zero() => slowest(rate),
+                _ => {
+                    return Err(Error::Inadmissible(
+                        "the leakage of every estimate must be constant",
+                    ))
+                }
+            }
+        }
+        // Twice the residue is sigma·(p* - p0)²/(2·m).
+        let mut phi = two * sum(law, plant, |estimate| Ok(estimate.residue()))?;
+        let truth = Interval::exactly(plant.delta);
+        if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
+            phi += two * delta.residue();
+        }
+        phi += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * plant.delta;
+        let delta = bounded((two * phi / theta).sqrt())?;
+        Ok(Self {
+            phi,
+            theta,
+            delta,
+            bound: bounded((T::one() + lambda) * delta)?,
+        })
+    }
+
+    /// (1 + lambda)·delta as a certificate.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<T> {
+        Certificate {
+            kind: Kind::Theorem1,
+            value: self.bound,
+        }
+    }
+}

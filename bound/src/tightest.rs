@@ -1,0 +1,240 @@
+//! Theorem 1 with the best choice of the constants that its proof leaves free.
+
+use super::truth::{adapting, bounded, literal, range, stays, sum, Adapting};
+use super::{Certificate, Interval, Kind, Plant};
+use bowden::control::{Adaptive, Leakage};
+use bowden::{Error, Real};
+
+/// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
+///
+/// The proof of [`Theorem1`](super::Theorem1) leaves some constants free. Let
+/// `V = s²/2 + c·z²/2 + ...` with any weight c. Measure delta_hat from any target T up to Delta.
+/// Let theta be any rate below twice the slowest leakage. Then `V' <= -theta·V + phi` with
+///
+/// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, where that of
+///   delta has T instead of p*;
+/// - `W·epsilon·lambda·T` from the smooth sign; and
+/// - `lambda²·(Delta - T)²/(4·a)` from the disturbance beyond the target, where
+///   `a = k·lambda - theta/2 - (c - 1)²/(4·c·(lambda - theta/2))` is above zero;
+///
+/// and `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =
+/// Delta and theta the slowest leakage this is (34)-(38), up to `(1 + lambda)`. For Table 2 the
+/// greatest term is the leakage of beta_hat, which no choice reduces.
+///
+/// Assumptions: those of [`Theorem1`](super::Theorem1).
+///
+/// ```
+/// use bowden_bound::{Plant, Tightest};
+/// use bowden::control::Adaptive;
+/// let best = Tightest::try_new(&Adaptive::paper(), &Plant::new(0.5, 7.0_f64))?;
+/// assert!(best.bound < 100.0); // instead of 1138 N·m
+/// assert_eq!(best.dominant_term().0, "leakage of beta_hat");
+/// # Ok::<(), bowden::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tightest<T> {
+    /// limsup of `|e|` \[N·m\].
+    pub bound: T,
+    /// theta \[1/s\].
+    pub theta: T,
+    /// c: weight of z² in V \[1/s²\].
+    pub weight: T,
+    /// T \[N·m\]: the reference value of delta_hat.
+    pub target: T,
+    /// The terms of phi \[(N·m)²/s\], in the order of [`NAMES`](Self::NAMES).
+    pub terms: [T; 5],
+}
+
+/// The data of one trial choice.
+struct Problem<'a, T, const N: usize> {
+    law: &'a Adaptive<T, N>,
+    plant: &'a Plant<T, N>,
+    /// Without its true value, which is the target.
+    delta: Option<Adapting<T>>,
+    targets: Interval<T>,
+    /// Least leakage of an estimate in V \[1/s\].
+    slowest: T,
+}
+
+/// Rounds of each search: each round reduces the interval to two thirds.
+const NARROWINGS: u32 = 36;
+
+impl<T: Real> Tightest<T> {
+    /// Names of the terms.
+    pub const NAMES: [&'static str; 5] = [
+        "leakage of beta_hat",
+        "leakage of delta_hat",
+        "leakage of theta_hat",
+        "smooth sign",
+        "disturbance",
+    ];
+
+    /// The best bound of a law on a plant.
+    ///
+    /// # Errors
+    /// The same as [`Theorem1::try_new`](super::Theorem1::try_new).
+    pub fn try_new<const N: usize>(
+        law: &Adaptive<T, N>,
+        plant: &Plant<T, N>,
+    ) -> Result<Self, Error> {
+        plant.check()?;
+        literal(law)?;
+        let problem = Problem::try_new(law, plant)?;
+        let zero = T::zero();
+        // theta as a share of its maximum, c by its logarithm.
+        let theta = |share: T| problem.slowest * T::from_f64(2.0) * share;
+        let best_weight = |theta: T| -> Result<Self, Error> {
+            let highest = T::from_f64(16.0) * law.settings().gain * law.settings().lambda;
+            let top = (highest * law.settings().lambda + T::from_f64(2.0)).ln();
+            let at = |log: T| problem.at(theta, log.exp());
+            at(narrowed(zero, top, |log| Ok(at(log)?.bound))?)
+        };
+        let share = narrowed(T::from_f64(1e-6), T::one() - T::from_f64(1e-6), |share| {
+            Ok(best_weight(theta(share))?.bound)
+        })?;
+        let best = best_weight(theta(share))?;
+        bounded(best.bound)?;
+        Ok(best)
+    }
+
+    /// The greatest term of phi, and its share of phi.
+    #[must_use]
+    pub fn dominant_term(&self) -> (&'static str, T) {
+        let mut sum = T::zero();
+        let mut greatest = (Self::NAMES[0], T::zero());
+        for (name, term) in Self::NAMES.iter().zip(self.terms) {
+            sum += term;
+            if term > greatest.1 {
+                greatest = (name, term);
+            }
+        }
+        (greatest.0, greatest.1 / sum)
+    }
+
+    /// The bound as a certificate.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate<T> {
+        Certificate {
+            kind: Kind::Tightest,
+            value: self.bound,
+        }
+    }
+}
+
+impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
+    fn try_new(law: &'a Adaptive<T, N>, plant: &'a Plant<T, N>) -> Result<Self, Error> {
+        let settings = law.settings();
+        let mut slowest = settings.lambda;
+        for estimator in [settings.beta, settings.delta]
+            .iter()
+            .chain(&settings.theta)
+        {
+            if stays(estimator, settings.frozen) {
+                continue;
+            }
+            match estimator.leakage {
+                Leakage::Constant { rate } if rate > T::zero() => {
+                    slowest = if rate < slowest { rate } else { slowest };
+                }
+                _ => {
+                    return Err(Error::Inadmissible(
+                        "the leakage of every estimate must be constant",
+                    ))
+                }
+            }
+        }
+        let top = Interval::exactly(plant.delta);
+        let delta = adapting(&settings.delta, settings.frozen, top)?;
+        let low = range(&settings.delta, settings.frozen).low;
+        let low = if low > T::zero() { low } else { T::zero() };
+        let targets = match delta {
+            Some(_) => Interval {
+                low,
+                high: plant.delta,
+            },
+            None => top,
+        };
+        Ok(Self {
+            law,
+            plant,
+            delta,
+            targets,
+            slowest,
+        })
+    }
+
+    /// The bound at one theta and one c, with the best target.
+    fn at(&self, theta: T, weight: T) -> Result<Tightest<T>, Error> {
+        let settings = self.law.settings();
+        let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
+        let half = theta / two;
+        let leaked = |estimate: &Adapting<T>| {
+            let sigma = estimate.leakage.rate();
+            let share = sigma * sigma / (four * estimate.gain * (sigma - half));
+            share * estimate.distance_squared()
+        };
+        let all = sum(self.law, self.plant, |estimate| Ok(leaked(estimate)))?;
+        let thetas = settings.theta.iter().zip(&self.plant.regressors);
+        let mut of_theta = T::zero();
+        for (theta, known) in thetas {
+            if let Some(theta) = adapting(theta, settings.frozen, known.theta)? {
+                of_theta += leaked(&theta);
+            }
+        }
+        let coupling = weight - T::one();
+        let coupled = coupling * coupling / (four * weight * (lambda - half));
+        let stiffness = settings.gain * lambda - half - coupled;
+        if stiffness <= T::zero() {
+            return Ok(Tightest {
+                bound: T::infinity(),
+                theta,
+                weight,
+                target: self.targets.high,
+                terms: [T::zero(); 5],
+            });
+        }
+        let smooth = settings.smooth_sign.residue::<T>() * settings.epsilon * lambda;
+        let aimed = |target: T| {
+            let truth = Interval::exactly(target);
+            let delta = self.delta.map(|delta| Adapting { truth, ..delta });
+            let left = lambda * (self.plant.delta - target);
+            [
+                delta.map_or(T::zero(), |delta| leaked(&delta)),
+                smooth * target,
+                left * left / (four * stiffness),
+            ]
+        };
+        let total = |target: T| Ok(aimed(target).iter().fold(T::zero(), |sum, x| sum + *x));
+        let target = narrowed(self.targets.low, self.targets.high, total)?;
+        let [of_delta, smoothing, disturbance] = aimed(target);
+        let phi = all + of_delta + smoothing + disturbance;
+        let seen = T::one() + lambda * lambda / weight;
+        Ok(Tightest {
+            bound: (seen * two * phi / theta).sqrt(),
+            theta,
+            weight,
+            target,
+            terms: [all - of_theta, of_delta, of_theta, smoothing, disturbance],
+        })
+    }
+}
+
+/// The minimum of a function that falls and then rises; any place is valid.
+fn narrowed<T: Real>(
+    mut low: T,
+    mut high: T,
+    of: impl Fn(T) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let third = T::one() / T::from_f64(3.0);
+    for _ in 0..NARROWINGS {
+        let (a, b) = (low + (high - low) * third, high - (high - low) * third);
+        // Infinite on both sides: the upper end is too far.
+        if of(b)? < of(a)? {
+            low = a;
+        } else {
+            high = b;
+        }
+    }
+    Ok(low + (high - low) * T::from_f64(0.5))
+}

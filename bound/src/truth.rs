@@ -1,0 +1,197 @@
+//! Ranges of the estimates, and the distance of the true values from their priors.
+
+use super::{Interval, Plant};
+use bowden::control::{Adaptive, Estimator, Leakage};
+use bowden::{Error, Real};
+
+/// One estimate in the Lyapunov function: its gain, its leakage, the true value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Adapting<T> {
+    pub(super) gain: T,
+    pub(super) leakage: Leakage<T>,
+    pub(super) initial: T,
+    pub(super) prior: T,
+    pub(super) truth: Interval<T>,
+}
+
+impl<T: Real> Adapting<T> {
+    /// `(p* - prior)²` at worst.
+    pub(super) fn distance_squared(&self) -> T {
+        let distance = self.truth.max_distance_from(self.prior);
+        distance * distance
+    }
+
+    /// Largest `(sigma/m)·(p_hat - prior)·(p* - p_hat)` over every p_hat.
+    pub(super) fn residue(&self) -> T {
+        if let Leakage::Switching { bound, .. } = self.leakage {
+            // It leaks only from beyond the true value, and towards the true value.
+            if self.truth.max_distance_from(self.prior) <= bound {
+                return T::zero();
+            }
+        }
+        self.leakage.rate() * self.distance_squared() / (T::from_f64(4.0) * self.gain)
+    }
+
+    /// `(p* - p_hat)²/(2·m)` at the start, at worst.
+    pub(super) fn at_start(&self) -> T {
+        let distance = self.truth.max_distance_from(self.initial);
+        distance * distance / (T::from_f64(2.0) * self.gain)
+    }
+}
+
+/// Whether an estimate is constant at its initial value.
+pub(super) fn stays<T: Real>(estimator: &Estimator<T>, frozen: bool) -> bool {
+    let idle = estimator.gain == T::zero() && estimator.leakage.rate() == T::zero();
+    frozen || idle
+}
+
+/// Range of an estimate.
+pub(super) fn range<T: Real>(estimator: &Estimator<T>, frozen: bool) -> Interval<T> {
+    if stays(estimator, frozen) {
+        Interval::exactly(estimator.initial)
+    } else {
+        Interval {
+            low: estimator.low,
+            high: estimator.high,
+        }
+    }
+}
+
+/// The estimate's part of the Lyapunov function; `None` if it is constant at the true value.
+///
+/// # Errors
+/// [`Error::Inadmissible`] if it is constant at another value, leaks without a gain, or its
+/// bounds do not contain the true value.
+pub(super) fn adapting<T: Real>(
+    estimator: &Estimator<T>,
+    frozen: bool,
+    truth: Interval<T>,
+) -> Result<Option<Adapting<T>>, Error> {
+    if stays(estimator, frozen) {
+        // An error of rounding alone counts as the true value.
+        let rounding = T::from_f64(4.0) * T::epsilon() * truth.magnitude();
+        return if truth.max_distance_from(estimator.initial) <= rounding {
+            Ok(None)
+        } else {
+            Err(Error::Inadmissible(
+                "an estimate must adapt or be the truth",
+            ))
+        };
+    }
+    if estimator.gain == T::zero() {
+        return Err(Error::Inadmissible(
+            "an estimate that leaks must have a gain",
+        ));
+    }
+    if !(estimator.contains(truth.low) && estimator.contains(truth.high)) {
+        return Err(Error::Inadmissible("each box must contain the truth"));
+    }
+    Ok(Some(Adapting {
+        gain: estimator.gain,
+        leakage: estimator.leakage,
+        initial: estimator.initial,
+        prior: estimator.prior,
+        truth,
+    }))
+}
+
+/// Sum of `of` over beta, weighted by alpha, and the thetas.
+///
+/// Each is the worst case over the plant's intervals. With beta* = 1/alpha the value for beta
+/// is `alpha·(1/alpha - p)²` up to a factor: convex in alpha, so the worst case is at an end.
+pub(super) fn sum<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    plant: &Plant<T, N>,
+    of: impl Fn(&Adapting<T>) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let settings = law.settings();
+    let mut worst = T::zero();
+    for alpha in [plant.alpha.low, plant.alpha.high] {
+        let truth = Interval::exactly(T::one() / alpha);
+        if let Some(beta) = adapting(&settings.beta, settings.frozen, truth)? {
+            let taken = alpha * of(&beta)?;
+            if taken > worst {
+                worst = taken;
+            }
+        }
+    }
+    let mut sum = worst;
+    for (theta, known) in settings.theta.iter().zip(&plant.regressors) {
+        if let Some(theta) = adapting(theta, settings.frozen, known.theta)? {
+            sum += of(&theta)?;
+        }
+    }
+    Ok(sum)
+}
+
+/// Least and greatest `g = alpha·beta_hat`.
+///
+/// # Errors
+/// [`Error::Inadmissible`] unless g stays above zero and delta_hat not below.
+pub(super) fn loop_gain<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    plant: &Plant<T, N>,
+) -> Result<Interval<T>, Error> {
+    let settings = law.settings();
+    if range(&settings.delta, settings.frozen).low < T::zero() {
+        return Err(Error::Inadmissible("delta.low >= 0"));
+    }
+    let beta = range(&settings.beta, settings.frozen);
+    if beta.low <= T::zero() {
+        return Err(Error::Inadmissible("beta.low > 0"));
+    }
+    Ok(Interval {
+        low: plant.alpha.low * beta.low,
+        high: plant.alpha.high * beta.high,
+    })
+}
+
+/// Greatest `sum |g·theta_hat_i - theta_i|·|x_i|` for a loop gain in `g` \[N·m\].
+pub(super) fn mismatch<T: Real, const N: usize>(
+    law: &Adaptive<T, N>,
+    plant: &Plant<T, N>,
+    g: Interval<T>,
+) -> T {
+    let settings = law.settings();
+    let pairs = settings.theta.iter().zip(&plant.regressors);
+    pairs.fold(T::zero(), |sum, (theta, known)| {
+        let estimate = range(theta, settings.frozen);
+        let mut worst = T::zero();
+        for g in [g.low, g.high] {
+            for estimate in [estimate.low, estimate.high] {
+                let distance = known.theta.max_distance_from(g * estimate);
+                if distance > worst {
+                    worst = distance;
+                }
+            }
+        }
+        // A regressor that is always zero has any coefficient: 0·inf would be NaN.
+        if known.magnitude == T::zero() {
+            sum
+        } else {
+            sum + worst * known.magnitude
+        }
+    })
+}
+
+/// The value, or an error if it is not finite.
+pub(super) fn bounded<T: Real>(value: T) -> Result<T, Error> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::Inadmissible(
+            "the boxes must be narrow enough for a finite bound",
+        ))
+    }
+}
+
+/// The form as published, which the continuous certificates require.
+pub(super) fn literal<T: Real, const N: usize>(law: &Adaptive<T, N>) -> Result<(), Error> {
+    if law.largest_step().is_some() {
+        return Err(Error::Inadmissible(
+            "the gains must have the form as published",
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,371 @@
+//! The box of the shipped step: its figures, and what each inequality refuses.
+
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fault, Form, Leakage,
+    Limits, Status,
+};
+use bowden::{Error, Real};
+use bowden_bound::{Interval, Kind, Known, Named, PeakRounded, PeakSampled, Plant};
+
+/// Table 2 at 1 kHz, as the proofs have it, over regressors that stay in `theta`.
+pub(super) fn table_2<T: Real, const N: usize>(theta: T) -> AdaptiveSettings<T, N> {
+    let lag = Form::FirstOrder {
+        step: T::from_f64(0.001),
+        plant_gain: T::ONE,
+    };
+    let slow = T::from_f64(1e-30);
+    let moving = |start: f64, low: T, high: T| {
+        Estimator::free(T::from_f64(start))
+            .within(low, high)
+            .adapting(slow, T::ZERO)
+    };
+    AdaptiveSettings {
+        beta: moving(1.0, T::from_f64(0.8), T::from_f64(1.2)),
+        delta: moving(0.0, T::ZERO, T::from_f64(4.0)),
+        theta: [moving(0.0, -theta, theta); N],
+        z_limit: T::ONE,
+        limits: Limits::try_new(T::from_f64(-60.0), T::from_f64(60.0)).unwrap(),
+        ..AdaptiveSettings::unlimited(lag, T::from_f64(24.0), T::from_f64(8.0), T::from_f64(0.05))
+    }
+}
+
+pub(super) fn table_2_plant() -> Plant<f64, 0> {
+    Plant {
+        reference: 10.0,
+        ..Plant::new(1.0, 6.0)
+    }
+}
+
+/// k 17.3, lambda 6.1, 2 kHz, alpha within 6 %, two regressors, 20 N·m/s.
+pub(super) fn own<T: Real>() -> AdaptiveSettings<T, 2> {
+    let lag = Form::FirstOrder {
+        step: T::from_f64(0.0005),
+        plant_gain: T::from_f64(1.05),
+    };
+    let moving = |low: f64, high: f64| {
+        Estimator::free(T::from_f64(low))
+            .within(T::from_f64(low), T::from_f64(high))
+            .adapting(T::from_f64(1e-30), T::ZERO)
+    };
+    AdaptiveSettings {
+        beta: moving(0.9, 1.1),
+        delta: moving(0.0, 5.0),
+        theta: [moving(0.0, 4.0), moving(0.0, 0.5)],
+        z_limit: T::from_f64(0.5),
+        limits: Limits::try_new(T::from_f64(-60.0), T::from_f64(60.0)).unwrap(),
+        ..AdaptiveSettings::unlimited(lag, T::from_f64(17.3), T::from_f64(6.1), T::from_f64(0.08))
+    }
+}
+
+pub(super) fn own_plant() -> Plant<f64, 2> {
+    let known = |low, high, magnitude, rate| Known {
+        theta: Interval { low, high },
+        magnitude,
+        rate,
+    };
+    Plant {
+        alpha: Interval {
+            low: 0.92,
+            high: 1.04,
+        },
+        delta_rate: 20.0,
+        reference: 25.0,
+        reference_rate: 22.3,
+        regressors: [known(2.2, 3.0, 1.5, 3.0), known(0.1, 0.3, 3.0, 8.0)],
+        ..Plant::new(1.0, 7.056)
+    }
+}
+
+/// The least S of a law, proved.
+pub(super) fn proved<T: Real, const N: usize>(
+    settings: AdaptiveSettings<T, N>,
+    plant: &Plant<f64, N>,
+) -> PeakRounded {
+    PeakRounded::try_new(&Adaptive::try_new(settings).unwrap(), plant).unwrap()
+}
+
+/// S as a separate program found it in exact fractions, for a step whose command was not yet
+/// summed with compensation, with Z = S/lambda·(1 + 2^-12) in `f32`. What the command's sum
+/// owes costs 2^-24 of the command a step, 1e-6 N·m here, below 1e-4 of S; the closer Z wins
+/// some of that back. In `f64` neither shows.
+#[test]
+fn the_least_box_is_the_one_that_was_found_in_exact_fractions() {
+    let zero = Known {
+        theta: Interval {
+            low: 0.0,
+            high: 0.1,
+        },
+        magnitude: 1.0,
+        rate: 0.0,
+    };
+    let in_double = Plant {
+        reference: 10.0,
+        regressors: [zero; 2],
+        ..Plant::new(1.0, 4.0)
+    };
+    for (found, s) in [
+        (proved(table_2::<f32, 0>(0.0), &table_2_plant()), 0.416_992),
+        (proved(table_2::<f64, 2>(0.5), &in_double), 0.385_681),
+        (proved(own::<f32>(), &own_plant()), 1.611_816),
+        (proved(own::<f64>(), &own_plant()), 1.611_572),
+    ] {
+        let least = found.s.high().as_f64();
+        println!("S = {least}, found before: {s}");
+        assert!((least / s - 1.0).abs() < 3e-4, "{least} {s}");
+        // |e| <= 2·S, up to the room that z needs.
+        assert!(found.bound() >= 2.0 * least && found.bound() <= 2.0 * least * (1.0 + 1e-3));
+        assert_eq!(found.certificate().kind, Kind::PeakRounded);
+    }
+}
+
+#[test]
+fn rounding_costs_little_and_never_nothing() {
+    let plant = own_plant();
+    let law = Adaptive::try_new(own::<f64>()).unwrap();
+    let exact = PeakSampled::try_new(&law, &plant).unwrap().s;
+    let double = proved(own::<f64>(), &plant).s.high().as_f64();
+    let single = proved(own::<f32>(), &plant).s.high().as_f64();
+    // The search is to 2^-14.
+    assert!(
+        exact < double && double < exact * (1.0 + 1e-4),
+        "{exact} {double}"
+    );
+    assert!(
+        double < single && single < exact * (1.0 + 5e-4),
+        "{exact} {single}"
+    );
+}
+
+/// The inequality that refuses.
+fn refused<T: Real, const N: usize>(
+    settings: &AdaptiveSettings<T, N>,
+    plant: &Plant<f64, N>,
+) -> Option<Named> {
+    let examined = PeakRounded::examine(settings, plant).unwrap();
+    assert_eq!(examined.is_proved(), examined.refused().is_none());
+    examined.refused().map(|inequality| inequality.name)
+}
+
+#[test]
+fn each_inequality_refuses_what_it_should() {
+    let (good, plant) = (own::<f32>(), own_plant());
+    assert_eq!(refused(&good, &plant), None);
+    let at = |step: f32| AdaptiveSettings {
+        form: Form::FirstOrder {
+            step,
+            plant_gain: 1.05,
+        },
+        ..good
+    };
+    assert_eq!(refused(&at(0.2), &plant), Some(Named::Step));
+    let steep = AdaptiveSettings {
+        epsilon: 0.01,
+        ..good
+    };
+    assert_eq!(refused(&steep, &plant), Some(Named::Steepness));
+    let soft = AdaptiveSettings { gain: 0.02, ..good };
+    assert_eq!(refused(&soft, &plant), Some(Named::Stiffness));
+    let short = AdaptiveSettings {
+        z_limit: 0.25,
+        ..good
+    };
+    assert_eq!(refused(&short, &plant), Some(Named::ZLimit));
+    // Where one step moves z by less than z is rounded by, z need not stay.
+    assert_eq!(refused(&at(1e-8), &plant), Some(Named::ZStays));
+    // k barely above 1/lambda²: roundings of s eat what is left.
+    let barely = AdaptiveSettings {
+        gain: 0.02688,
+        ..good
+    };
+    assert_eq!(refused(&barely, &plant), Some(Named::SStays));
+}
+
+#[test]
+fn a_limit_may_be_met_where_it_holds_the_reference_against_the_load() {
+    let (good, plant) = (own::<f32>(), own_plant());
+    // A limit below what the box needs is enough where it holds the reference against the load.
+    let limited = |command: f32| AdaptiveSettings {
+        limits: Limits::try_new(-command, command).unwrap(),
+        ..good
+    };
+    let at_most = PeakRounded::examine(&limited(44.0), &plant).unwrap();
+    assert!(at_most.is_proved() && at_most.may_meet_the_limit());
+    assert!(!PeakRounded::examine(&good, &plant)
+        .unwrap()
+        .may_meet_the_limit());
+    // (25 + 7.056 + 3.0*1.5 + 0.3*3.0)/0.92 = 40.713.
+    assert_eq!(refused(&limited(40.72), &plant), None);
+    assert_eq!(refused(&limited(40.71), &plant), Some(Named::Reserve));
+    // Where z that waits would lead over the box, the limit must not be met.
+    let quick = AdaptiveSettings {
+        gain: 286.0,
+        delta: Estimator::fixed(0.0),
+        ..limited(40.8)
+    };
+    let examined = PeakRounded::examine(&quick, &plant).unwrap();
+    assert!(!examined.at_the_limit[1].holds());
+    assert_eq!(refused(&quick, &plant), Some(Named::Command));
+    let free = limited(60.0).limits;
+    let quick = AdaptiveSettings {
+        limits: free,
+        ..quick
+    };
+    assert_eq!(refused(&quick, &plant), None);
+}
+
+/// epsilon so small that s/epsilon is beyond the largest `f32`.
+fn sharp<T: Real>(settings: AdaptiveSettings<T, 2>) -> AdaptiveSettings<T, 2> {
+    AdaptiveSettings {
+        delta: Estimator::fixed(T::ZERO),
+        epsilon: T::from_f64(2e-39),
+        ..settings
+    }
+}
+
+#[test]
+fn what_overflows_is_refused() {
+    let plant = own_plant();
+    assert_eq!(refused(&sharp(own::<f32>()), &plant), Some(Named::Overflow));
+    assert_eq!(refused(&sharp(own::<f64>()), &plant), None);
+}
+
+/// A law whose gains are `gain`, and which leaks at `leakage` \[1/s\].
+fn eager<T: Real>(gain: f64, leakage: f64) -> AdaptiveSettings<T, 2> {
+    let with = |own: Estimator<T>| own.adapting(T::from_f64(gain), T::from_f64(leakage));
+    let own = own::<T>();
+    AdaptiveSettings {
+        beta: with(own.beta),
+        delta: with(own.delta),
+        theta: own.theta.map(with),
+        ..own
+    }
+}
+
+/// The step of a law that is refused does overflow, in the update of an estimate.
+#[test]
+fn an_update_that_overflows_is_refused() {
+    let plant = own_plant();
+    for (gain, leakage) in [(1e37, 0.0), (0.0, 1e38)] {
+        let settings = eager::<f32>(gain, leakage);
+        assert_eq!(refused(&settings, &plant), Some(Named::Overflow));
+        assert_eq!(refused(&eager::<f64>(gain, leakage), &plant), None);
+        let law = Adaptive::try_new(settings).unwrap();
+        let mut state = AdaptiveState::new(&law);
+        let sample = AdaptiveInput::new(0.0005, 25.0, 24.0, [1.0; 2]);
+        let status = law.step(&mut state, &sample).status;
+        let overflows = status == Status::Held(Fault::Overflow);
+        assert_eq!(overflows, gain > 0.0, "{status:?}");
+    }
+    let modest = eager::<f32>(1e30, 1e30);
+    assert_eq!(refused(&modest, &plant), None);
+    // A distance over the bound of a switching leakage.
+    let mut switching = eager::<f32>(1.0, 0.0);
+    let leakage = |bound| Leakage::Switching { rate: 0.1, bound };
+    switching.delta.leakage = leakage(1e-39);
+    assert_eq!(refused(&switching, &plant), Some(Named::Overflow));
+    switching.delta.leakage = leakage(1.0);
+    assert_eq!(refused(&switching, &plant), None);
+}
+
+#[test]
+fn a_certificate_that_cannot_be_stated_names_the_reason() {
+    let plant = own_plant();
+    let examined = |settings: AdaptiveSettings<f32, 2>| PeakRounded::examine(&settings, &plant);
+    let good = own::<f32>();
+    let literal = Form::AsPublished { time_constant: 0.0 };
+    let cases = [
+        (
+            AdaptiveSettings {
+                form: literal,
+                ..good
+            },
+            Error::Inadmissible("the gains must have the lag form"),
+        ),
+        (
+            AdaptiveSettings {
+                gain: f32::NAN,
+                ..good
+            },
+            Error::NonFinite("gain"),
+        ),
+        (
+            AdaptiveSettings {
+                epsilon: 0.0,
+                ..good
+            },
+            Error::OutOfRange("epsilon"),
+        ),
+        (
+            AdaptiveSettings {
+                longest_dt: 1e-4,
+                ..good
+            },
+            Error::Inadmissible("longest_dt >= step"),
+        ),
+        (
+            AdaptiveSettings {
+                beta: Estimator::fixed(-1.0),
+                ..good
+            },
+            Error::Inadmissible("beta.low > 0"),
+        ),
+    ];
+    for (settings, error) in cases {
+        assert_eq!(examined(settings).map(|_| ()), Err(error));
+    }
+    let many = Plant::<f64, 17>::new(1.0, 6.0);
+    let error = PeakRounded::examine(&table_2::<f32, 17>(0.1), &many).map(|_| ());
+    assert_eq!(error, Err(Error::Capacity("regressors")));
+    let wrong = Plant {
+        delta: f64::NAN,
+        ..plant
+    };
+    assert_eq!(
+        PeakRounded::examine(&good, &wrong).map(|_| ()),
+        Err(Error::NonFinite("delta"))
+    );
+    // A law that is refused has the inequality's text.
+    let law = Adaptive::try_new(AdaptiveSettings {
+        z_limit: 0.25,
+        ..good
+    })
+    .unwrap();
+    assert_eq!(
+        PeakRounded::try_new(&law, &plant).map(|_| ()),
+        Err(Error::Inadmissible("Z <= z_limit"))
+    );
+}
+
+#[test]
+fn a_wider_world_needs_a_wider_box() {
+    let least = |plant: &Plant<f64, 2>| proved(own::<f32>(), plant).s.high();
+    let plant = own_plant();
+    let reference = least(&plant);
+    for wider in [
+        Plant {
+            delta: 7.2,
+            ..plant
+        },
+        Plant {
+            delta_rate: 25.0,
+            ..plant
+        },
+        Plant {
+            reference: 26.0,
+            ..plant
+        },
+        Plant {
+            reference_rate: 25.0,
+            ..plant
+        },
+        Plant {
+            alpha: Interval {
+                low: 0.9,
+                high: 1.04,
+            },
+            ..plant
+        },
+    ] {
+        assert!(least(&wider) > reference, "{wider:?}");
+    }
+}

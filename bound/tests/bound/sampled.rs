@@ -1,0 +1,253 @@
+//! The box theorem against adversaries.
+
+use super::Random;
+use bowden::control::{
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Disturbance, ErrorState, Estimator,
+    Form, LagRecursion, SmoothSign,
+};
+use bowden_bound::{Interval, Known, PeakSampled, Plant, RmsSampled};
+
+fn law(gain: f64, lambda: f64, share: f64, smooth_sign: SmoothSign) -> Adaptive<f64, 1> {
+    let settings = AdaptiveSettings {
+        smooth_sign,
+        beta: Estimator::fixed(1.0)
+            .within(1.0 - share, 1.0 + share)
+            .adapting(0.01, 0.01),
+        delta: Estimator::fixed(1.0).within(0.0, 7.056).adapting(0.5, 0.01),
+        theta: [Estimator::fixed(0.0).within(-1.0, 1.0).adapting(0.1, 0.01)],
+        ..AdaptiveSettings::unlimited(
+            Form::FirstOrder {
+                step: 1e-9,
+                plant_gain: 1.0,
+            },
+            gain,
+            lambda,
+            0.2,
+        )
+    };
+    // The longest step that is admissible: the condition is met with equality.
+    let step = settings.largest_step().unwrap();
+    let form = Form::FirstOrder {
+        step,
+        plant_gain: 1.0,
+    };
+    Adaptive::try_new(AdaptiveSettings { form, ..settings }).unwrap()
+}
+
+fn plant() -> Plant<f64, 1> {
+    let theta = Interval {
+        low: 0.2,
+        high: 0.6,
+    };
+    Plant {
+        delta_rate: 30.0,
+        regressors: [Known {
+            theta,
+            magnitude: 2.0,
+            rate: 4.0,
+        }],
+        reference: 38.0,
+        reference_rate: 22.2,
+        ..Plant::new(1.0, 7.056)
+    }
+}
+
+/// The largest `|s|/S` and `|z|·lambda/S` that a random adversary reaches in the box.
+fn attack(law: &Adaptive<f64, 1>, peak: &PeakSampled<f64>, seed: u64) -> (f64, f64) {
+    let settings = law.settings();
+    let recursion = LagRecursion {
+        gain: settings.gain,
+        lambda: settings.lambda,
+        epsilon: settings.epsilon,
+        smooth_sign: settings.smooth_sign,
+    };
+    let (h, mut random) = (law.largest_step().unwrap(), Random(seed));
+    let mut at = ErrorState { s: 0.0, z: 0.0 };
+    let (mut s, mut z) = (0.0_f64, 0.0_f64);
+    for _ in 0..100 {
+        // For a while it pushes one way with all it has, or draws everything anew.
+        let (side, blind) = (random.sign(), random.within(0.0, 1.0) < 0.3);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let while_ = (random.within(0.0, 5.0) / (h * settings.lambda)) as u32;
+        for _ in 0..while_ {
+            let mut by = Disturbance {
+                g: peak.g.low,
+                delta_hat: 0.0,
+                w: side * peak.w,
+                xi: -side * h * peak.xi,
+            };
+            if blind {
+                by.g = random.within(peak.g.low, peak.g.high);
+                by.delta_hat = random.within(0.0, settings.delta.high);
+                by.w *= random.within(-1.0, 1.0);
+                by.xi *= random.within(-1.0, 1.0);
+            }
+            at = recursion.step(at, h, &by);
+            s = s.max(at.s.abs() / peak.s);
+            z = z.max(at.z.abs() * settings.lambda / peak.s);
+        }
+    }
+    (s, z)
+}
+
+#[test]
+fn a_random_adversary_reaches_99_percent_of_the_box_and_never_leaves_it() {
+    let mut random = Random(11);
+    for system in 0..60 {
+        // lambda²·k of 150 or more: at the corner s falls short by at most 1/(lambda²·k).
+        let (gain, lambda) = (random.within(6.0, 30.0), random.within(5.0, 10.0));
+        let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
+        let law = law(gain, lambda, random.within(0.01, 0.4), sign);
+        let peak = PeakSampled::try_new(&law, &plant()).unwrap();
+        let (s, z) = attack(&law, &peak, 100 + system as u64);
+        // Rounding of S itself.
+        assert!(s <= 1.0 + 1e-12 && z <= 1.0 + 1e-12, "{system}: {s} {z}");
+        assert!(s >= 0.99 && z >= 0.99, "{system}: {s} {z}");
+    }
+}
+
+#[test]
+fn from_outside_the_errors_come_into_the_box() {
+    let law = law(24.0, 8.0, 0.1, SmoothSign::Tanh);
+    let peak = PeakSampled::try_new(&law, &plant()).unwrap();
+    let recursion = LagRecursion {
+        gain: 24.0,
+        lambda: 8.0,
+        epsilon: 0.2,
+        smooth_sign: SmoothSign::Tanh,
+    };
+    let h = law.largest_step().unwrap();
+    let by = Disturbance {
+        g: peak.g.low,
+        delta_hat: 0.0,
+        w: peak.w,
+        xi: -h * peak.xi,
+    };
+    let mut at = ErrorState {
+        s: 300.0,
+        z: -200.0,
+    };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    for _ in 0..(5.0 / h) as u32 {
+        at = recursion.step(at, h, &by);
+    }
+    // e^(-5·lambda) is 4e-18.
+    assert!(at.s.abs() <= peak.s * (1.0 + 1e-12), "{at:?} {}", peak.s);
+    assert!(at.z.abs() * 8.0 <= peak.s * (1.0 + 1e-12));
+}
+
+#[test]
+fn beyond_the_admissible_step_the_box_is_left() {
+    let law = law(24.0, 8.0, 0.1, SmoothSign::Clamp);
+    let peak = PeakSampled::try_new(&law, &plant()).unwrap();
+    let recursion = LagRecursion {
+        gain: 24.0,
+        lambda: 8.0,
+        epsilon: 0.2,
+        smooth_sign: SmoothSign::Clamp,
+    };
+    // Twenty times: h·lambda·g·k alone is eight, where two is the limit of any loop.
+    let h = 20.0 * law.largest_step().unwrap();
+    let by = Disturbance {
+        g: peak.g.high,
+        delta_hat: 7.0,
+        w: peak.w,
+        xi: 0.0,
+    };
+    let mut at = ErrorState { s: 0.0, z: 0.0 };
+    for _ in 0..100 {
+        at = recursion.step(at, h, &by);
+    }
+    assert!(at.s.abs() > 1e3 * peak.s);
+}
+
+#[test]
+fn the_shipped_step_never_leaves_the_box_on_a_static_plant() {
+    let known = plant();
+    let mut random = Random(3);
+    let mut reached = 0.0_f64;
+    for system in 0..40 {
+        let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
+        let law = law(
+            random.within(6.0, 30.0),
+            random.within(5.0, 10.0),
+            0.2,
+            sign,
+        );
+        let peak = PeakSampled::try_new(&law, &known).unwrap();
+        let (h, lambda) = (law.largest_step().unwrap(), law.settings().lambda);
+        let theta = random.within(0.2, 0.6);
+        let (mut x, mut d) = (0.0, random.within(-7.0, 7.0));
+        // The reference starts where the plant is at rest: e = 0.
+        let (mut r, mut u) = (-d, 0.0);
+        let mut state = AdaptiveState::new(&law);
+        let mut side = 1.0;
+        for _ in 0..20_000 {
+            if random.within(0.0, 1.0) < 0.004 {
+                side = random.sign();
+            }
+            let toward =
+                |value: f64, most: f64, rate: f64| (value + side * h * rate).clamp(-most, most);
+            let next = [
+                toward(r, 38.0, 22.2),
+                toward(x, 2.0, 4.0),
+                toward(d, 7.056, 30.0),
+            ];
+            let y = u - theta * x - d;
+            let input = AdaptiveInput {
+                next_reference: next[0],
+                ..AdaptiveInput::new(h, r, y, [x])
+            };
+            let output = law.step_with_terms(&mut state, &input);
+            u = output.command;
+            let terms = output.terms;
+            assert!(terms.s.abs() <= peak.s && terms.z.abs() * lambda <= peak.s);
+            assert!(terms.error.abs() <= peak.bound && u.abs() <= peak.command);
+            reached = reached.max(terms.s.abs() / peak.s);
+            [r, x, d] = next;
+        }
+    }
+    // What this simpler adversary reaches shows that the assertion is not idle.
+    assert!(reached > 0.25, "{reached}");
+}
+
+/// From z = 0, on a static plant with signals at the ends of what is stated.
+#[test]
+fn the_mean_square_of_the_error_stays_within_the_sampled_certificate() {
+    let mut random = Random(23);
+    let mut reached = 0.0_f64;
+    for system in 0..40 {
+        let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
+        let (gain, lambda) = (random.within(6.0, 30.0), random.within(3.0, 10.0));
+        let law = law(gain, lambda, 0.1, sign);
+        let known = Plant {
+            delta_rate: 3.0,
+            reference_rate: 0.0,
+            ..plant()
+        };
+        let certificate = RmsSampled::try_new(&law, &known).unwrap();
+        let h = law.largest_step().unwrap();
+        let (theta, mut d, mut sum) = (0.4, 7.0, 0.0);
+        let (r, x) = (-38.0, 0.0);
+        let input = |y| AdaptiveInput::new(h, r, y, [x]);
+        let mut state = AdaptiveState::resume_from(&law, r + theta * x + d, &input(r));
+        let steps = 20_000;
+        for n in 0..steps {
+            let y = state.command() - theta * x - d;
+            let output = law.step_with_terms(&mut state, &input(y));
+            sum += output.terms.error.powi(2);
+            // One way, then the other: each takes as long as D needs at its rate.
+            let period = 4.0 * 7.0 / 3.0;
+            let phase = (f64::from(n) * h / period).fract();
+            d += if phase < 0.5 { -3.0 * h } else { 3.0 * h };
+            d = d.clamp(-7.056, 7.056);
+        }
+        let rms = (sum / f64::from(steps)).sqrt();
+        let promised = certificate.over(f64::from(steps) * h, 0.0);
+        assert!(rms <= promised, "{system}: {rms} {promised}");
+        assert!(certificate.bound <= promised);
+        reached = reached.max(rms / certificate.bound);
+    }
+    println!("reached {reached} of the bound over a long time");
+    assert!(reached > 0.02, "{reached}");
+}
