@@ -11,6 +11,18 @@ use num_traits::NumAssign;
 mod angle;
 mod short;
 
+/// Functions of a float that call another one.
+macro_rules! calls {
+    ($($name:ident($($more:ident)?) = $function:path;)+) => {
+        $(
+            #[inline]
+            fn $name(self $(, $more: Self)?) -> Self {
+                $function(self $(, $more)?)
+            }
+        )+
+    };
+}
+
 /// Further float functions for the hysteresis, not part of the interface.
 pub(crate) mod sealed {
     use super::short;
@@ -42,77 +54,49 @@ pub(crate) mod sealed {
         fn positive_below_highest(self) -> bool;
     }
 
+    /// The functions of the bits of a float with these bits of sign and exponent.
+    macro_rules! bits {
+        ($sign_and_exponent:literal) => {
+            #[inline]
+            fn binade(self) -> Self {
+                Self::from_bits(self.to_bits() & $sign_and_exponent)
+            }
+            #[inline]
+            fn positive_up_to(self, longest: Self) -> bool {
+                self.to_bits().wrapping_sub(1) < longest.to_bits()
+            }
+            #[inline]
+            fn positive_below_highest(self) -> bool {
+                self.to_bits().wrapping_sub(1) < Self::MAX.to_bits() - 1
+            }
+        };
+    }
+
     impl Sealed for f32 {
         const SHORT: bool = true;
-        #[inline]
-        fn log2(self) -> Self {
-            short::log2(self)
+        calls! {
+            log2() = short::log2;
+            exp2() = short::exp2;
+            short_exp() = short::exp;
+            short_pow(exponent) = short::pow;
+            short_tanh() = short::tanh;
+            // libm satisfies this at all 2^32 arguments, to a unit in the last place, which the
+            // bounds allow for: `tests/exhaustive.rs`.
+            confined_tanh() = libm::tanhf;
+            coarse_log2() = short::coarse_log2;
+            coarse_power(exponent) = short::coarse_power;
         }
-        #[inline]
-        fn exp2(self) -> Self {
-            short::exp2(self)
-        }
-        #[inline]
-        fn short_exp(self) -> Self {
-            short::exp(self)
-        }
-        #[inline]
-        fn short_pow(self, exponent: Self) -> Self {
-            short::pow(self, exponent)
-        }
-        #[inline]
-        fn short_tanh(self) -> Self {
-            short::tanh(self)
-        }
-        /// libm satisfies this at all 2^32 arguments, to a unit in the last place, which the
-        /// bounds allow for: `tests/exhaustive.rs`.
-        #[inline]
-        fn confined_tanh(self) -> Self {
-            libm::tanhf(self)
-        }
-        #[inline]
-        fn coarse_log2(self) -> Self {
-            short::coarse_log2(self)
-        }
-        #[inline]
-        fn coarse_power(self, exponent: Self) -> Self {
-            short::coarse_power(self, exponent)
-        }
-        #[inline]
-        fn binade(self) -> Self {
-            Self::from_bits(self.to_bits() & 0xff80_0000)
-        }
-        #[inline]
-        fn positive_up_to(self, longest: Self) -> bool {
-            self.to_bits().wrapping_sub(1) < longest.to_bits()
-        }
-        #[inline]
-        fn positive_below_highest(self) -> bool {
-            self.to_bits().wrapping_sub(1) < Self::MAX.to_bits() - 1
-        }
+        bits!(0xff80_0000);
     }
 
     impl Sealed for f64 {
         const SHORT: bool = false;
-        #[inline]
-        fn log2(self) -> Self {
-            libm::log2(self)
-        }
-        #[inline]
-        fn exp2(self) -> Self {
-            libm::exp2(self)
-        }
-        #[inline]
-        fn short_exp(self) -> Self {
-            libm::exp(self)
-        }
-        #[inline]
-        fn short_pow(self, exponent: Self) -> Self {
-            libm::pow(self, exponent)
-        }
-        #[inline]
-        fn short_tanh(self) -> Self {
-            libm::tanh(self)
+        calls! {
+            log2() = libm::log2;
+            exp2() = libm::exp2;
+            short_exp() = libm::exp;
+            short_pow(exponent) = libm::pow;
+            short_tanh() = libm::tanh;
         }
         /// Enforced for any result of libm: its arguments are too many to test.
         #[inline]
@@ -128,18 +112,7 @@ pub(crate) mod sealed {
             let log = (self.to_bits() as i64).wrapping_sub(ONE) as f64;
             Self::from_bits(((exponent * log) as i64).wrapping_add(ONE) as u64)
         }
-        #[inline]
-        fn binade(self) -> Self {
-            Self::from_bits(self.to_bits() & 0xfff0_0000_0000_0000)
-        }
-        #[inline]
-        fn positive_up_to(self, longest: Self) -> bool {
-            self.to_bits().wrapping_sub(1) < longest.to_bits()
-        }
-        #[inline]
-        fn positive_below_highest(self) -> bool {
-            self.to_bits().wrapping_sub(1) < Self::MAX.to_bits() - 1
-        }
+        bits!(0xfff0_0000_0000_0000);
     }
 
     /// A value of tanh at `x` with x's sign, no further from zero than x and than 1. NaN
@@ -210,8 +183,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ty, $exp:ident, $exp_m1:ident, $ln:ident, $ln_1p:ident, $pow:ident, $sqrt:ident,
-     $sin:path, $cos:path, $tan:ident, $atan:ident, $tanh:ident) => {
+    ($float:ty, $($functions:tt)+) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -226,82 +198,39 @@ macro_rules! real {
             fn as_f64(self) -> f64 {
                 self.into()
             }
-            #[inline]
-            fn exp(self) -> Self {
-                libm::$exp(self)
-            }
-            #[inline]
-            fn exp_m1(self) -> Self {
-                libm::$exp_m1(self)
-            }
-            #[inline]
-            fn ln(self) -> Self {
-                libm::$ln(self)
-            }
-            #[inline]
-            fn ln_1p(self) -> Self {
-                libm::$ln_1p(self)
-            }
-            #[inline]
-            fn pow(self, exponent: Self) -> Self {
-                libm::$pow(self, exponent)
-            }
-            #[inline]
-            fn sqrt(self) -> Self {
-                libm::$sqrt(self)
-            }
-            #[inline]
-            fn sin(self) -> Self {
-                $sin(self)
-            }
-            #[inline]
-            fn cos(self) -> Self {
-                $cos(self)
-            }
-            #[inline]
-            fn tan(self) -> Self {
-                libm::$tan(self)
-            }
-            #[inline]
-            fn atan(self) -> Self {
-                libm::$atan(self)
-            }
-            #[inline]
-            fn tanh(self) -> Self {
-                libm::$tanh(self)
-            }
+            calls! { $($functions)+ }
         }
     };
 }
 
-real!(
+real! {
     f32,
-    expf,
-    expm1f,
-    logf,
-    log1pf,
-    powf,
-    sqrtf,
-    angle::sin,
-    angle::cos,
-    tanf,
-    atanf,
-    tanhf
-);
-real!(
+    exp() = libm::expf;
+    exp_m1() = libm::expm1f;
+    ln() = libm::logf;
+    ln_1p() = libm::log1pf;
+    pow(exponent) = libm::powf;
+    sqrt() = libm::sqrtf;
+    sin() = angle::sin;
+    cos() = angle::cos;
+    tan() = libm::tanf;
+    atan() = libm::atanf;
+    tanh() = libm::tanhf;
+}
+real! {
     f64,
-    exp,
-    expm1,
-    log,
-    log1p,
-    pow,
-    sqrt,
-    libm::sin,
-    libm::cos,
-    tan,
-    atan,
-    tanh
-);
+    exp() = libm::exp;
+    exp_m1() = libm::expm1;
+    ln() = libm::log;
+    ln_1p() = libm::log1p;
+    pow(exponent) = libm::pow;
+    sqrt() = libm::sqrt;
+    sin() = libm::sin;
+    cos() = libm::cos;
+    tan() = libm::tan;
+    atan() = libm::atan;
+    tanh() = libm::tanh;
+}
 
 #[cfg(test)]
 mod tests {
