@@ -20,12 +20,12 @@ const RATE: f64 = 1e4;
 const PERIOD: usize = 20_000;
 
 const NAMES: [&str; 6] = [
-    "eta, against the same step in f64",
-    "eta, against the step that splits, in f64",
-    "clock of a model, share of its time",
-    "integral of a PI, share of it",
-    "velocity of Rates [rad/s], of 6.3",
-    "estimates of the adaptive law, of a box of 12",
+    "eta, compared with the same step in f64",
+    "eta, compared with the splitting step in f64",
+    "clock of a model, relative",
+    "integral of a PI, relative",
+    "velocity from Rates at 6.3 rad/s [rad/s]",
+    "estimates of the adaptive law, within bounds of 12",
 ];
 
 /// The samples of one period: torque \[N·m\], angle \[rad\], error \[N·m\].

@@ -21,7 +21,7 @@ fn instructions(what: &'static str, limit: f64, outcome: Option<&Outcome>) -> Li
         None => ("not measured".to_owned(), "–".to_owned()),
         Some((o, count)) => {
             let whole = format!(
-                "{:.0} evaluations, {:.1} M instructions each all in all; {:.0} % of the time is the search",
+                "{:.0} evaluations, {:.1} M instructions each, in total; {:.0} % of the time is the search",
                 o.evaluations,
                 count / o.evaluations.max(1.0) / 1e6,
                 100.0 * o.search_share
@@ -43,7 +43,7 @@ fn instructions(what: &'static str, limit: f64, outcome: Option<&Outcome>) -> Li
 /// "met", or by how much not; a ratio of one is the limit.
 fn distance(ratio: f64, what: &str) -> String {
     match ratio <= 1.0 {
-        true => format!("met ({:.0} % of it): {what}", 100.0 * ratio),
+        true => format!("met ({:.0} % of the limit): {what}", 100.0 * ratio),
         false => format!("**{ratio:.1} times the limit**: {what}"),
     }
 }
@@ -75,7 +75,7 @@ fn all_rows(measured: &Measured) -> Limit {
         }
     };
     Limit {
-        what: "the ten measured rows together",
+        what: "the ten measured records together",
         limit: format!("≤ {:.0} G", limit / G),
         reached,
         between,
@@ -104,7 +104,7 @@ fn evaluations_a_name(measured: &Measured) -> Limit {
             distance(
                 o.evaluations_a_name() / 100.0,
                 &format!(
-                    "{label}: {:.0} evaluations in {:.0} local searches for {} names",
+                    "{label}: {:.0} evaluations in {:.0} local searches for {} terms",
                     o.evaluations,
                     o.searches,
                     o.names.len()
@@ -113,7 +113,7 @@ fn evaluations_a_name(measured: &Measured) -> Limit {
         ),
     };
     Limit {
-        what: "evaluations a name, on the record with most",
+        what: "evaluations per term, on the record with the most",
         limit: "≤ 100".to_owned(),
         reached,
         between,
@@ -128,7 +128,7 @@ fn over_the_paper(measured: &Measured) -> Limit {
             let by_instructions = own.instructions.zip(paper.instructions).map(|(a, b)| b / a);
             let ratio = by_instructions.unwrap_or(paper.seconds / own.seconds);
             let what = format!(
-                "{:.0} evaluations of theirs for {:.0} of ours; {:.1} times by the clock",
+                "{:.0} evaluations by the paper's method, {:.0} by `identify`; {:.1} times faster in wall time",
                 paper.evaluations,
                 own.evaluations,
                 paper.seconds / own.seconds
@@ -138,7 +138,7 @@ fn over_the_paper(measured: &Measured) -> Limit {
         _ => ("not measured".to_owned(), "–".to_owned()),
     };
     Limit {
-        what: "faster than the paper's method, whole process",
+        what: "faster than the paper's method (whole process)",
         limit: "≥ 150 times".to_owned(),
         reached,
         between,
@@ -154,7 +154,7 @@ fn is_linear(measured: &Measured) -> Limit {
         .zip(long.and_then(|(_, o)| each(o)))
         .map(|(a, b)| b / a);
     Limit {
-        what: "linear in time: instructions a sample, the longest record over 100 000 samples",
+        what: "linear in time: instructions per sample, ratio of the longest record to 100 000 samples",
         limit: "≤ 1.1, with 10 000 000 samples".to_owned(),
         reached: ratio.map_or_else(|| "not measured".to_owned(), |r| format!("{r:.2}")),
         between: match (ratio, long) {
@@ -174,7 +174,7 @@ fn bytes_a_row(measured: &Measured) -> Limit {
         _ => None,
     };
     Limit {
-        what: "memory a row, between the two longest records",
+        what: "memory per row, between the two longest records",
         limit: "≤ 80 B".to_owned(),
         reached: slope.map_or_else(|| "not measured".to_owned(), |s| format!("{s:.0} B")),
         between: slope.map_or_else(
@@ -182,7 +182,7 @@ fn bytes_a_row(measured: &Measured) -> Limit {
             |s| {
                 distance(
                     s / 80.0,
-                    "the text of the file, its columns, their grids and what the fit keeps of them",
+                    "the text of the file, its columns, their grids, and the data that the fit keeps",
                 )
             },
         ),

@@ -9,10 +9,10 @@ use std::process::Command;
 /// The record of the bare command; and the same one with nothing that a peer could not fit.
 const RECORDS: [(&str, &str); 2] = [
     (
-        "a viscous term undeclared",
+        "a viscous term that the baseline lacks",
         "--mode torque --effect viscous --seed 7",
     ),
-    ("nothing undeclared", "--mode torque --seed 7"),
+    ("nothing that the baseline lacks", "--mode torque --seed 7"),
 ];
 
 /// Samples of which SciPy is given the mean: 200 Hz are enough for tones of 1 Hz, and

@@ -85,7 +85,7 @@ fn samples(measured: &Measured) -> String {
     let head = [
         &["samples", "named"][..],
         &COST,
-        &["instructions a sample", "peak memory [MB]"],
+        &["instructions per sample", "peak memory [MB]"],
     ]
     .concat();
     let row = |(label, o): &(String, Outcome)| {
@@ -118,7 +118,7 @@ fn by_name(first: &str, rows: &[(String, Outcome)]) -> String {
     let head = [
         &[first, "samples", "named"][..],
         &COST,
-        &["evaluations a name", "search's share of the time"],
+        &["evaluations per term", "share of the search in the time"],
     ]
     .concat();
     let row = |(label, o): &(String, Outcome)| {
@@ -133,7 +133,7 @@ fn by_name(first: &str, rows: &[(String, Outcome)]) -> String {
 
 fn peers((all, notes): &Peers) -> String {
     let head = [
-        "record lacks",
+        "the record contains",
         "method",
         "samples",
         "evaluations",
@@ -149,7 +149,7 @@ fn peers((all, notes): &Peers) -> String {
     let rows = all.iter().map(|peer| {
         let ratio = own(peer.record).map(|own| match own.instructions.zip(peer.instructions) {
             Some((a, b)) => format!("{:.1} times", b / a),
-            None => format!("{:.1} times by the clock", peer.seconds / own.seconds),
+            None => format!("{:.1} times in wall time", peer.seconds / own.seconds),
         });
         vec![
             peer.record.to_owned(),
@@ -172,27 +172,27 @@ fn peers((all, notes): &Peers) -> String {
 const HEAD: &str = "\
 # Cost
 
-Written by `cargo run --release -p bowden-lab --example bench_report`; by hand nothing is changed
-here. `--quick` measures what takes minutes.
+`cargo run --release -p bowden-lab --example bench_report` writes this section; do not edit it. With
+`--quick` the command takes only minutes.
 
-`bowden identify RECORD --json` has these counts of each run under `cost`. An **evaluation** computes
-a model's columns, its gains and its residual over all samples of a grid; a **Jacobian** its
-derivatives by all shapes; a **search** is one run of Levenberg-Marquardt from one start. The counts
-repeat exactly, instructions to about 1e-4; seconds are of one run with one thread, and depend on the
-machine and on what else it does. All figures are of the whole process: reading, preparing, fitting,
-searching, the final fit and the report.
+`bowden identify RECORD --json` prints these counts under `cost`. An **evaluation** computes a model's
+columns, its gains and its residual over all samples of a grid. A **Jacobian** contains the derivatives
+with respect to all shape parameters. A **search** is one run of Levenberg-Marquardt from one starting
+point. The counts are reproducible exactly, the instructions to about 1e-4. The seconds are from one run
+with one thread and depend on the machine and its load. All numbers are for the whole process: reading,
+preparing, fitting, searching, the final fit and the report.
 
 ";
 
 const PEERS: &str = "\
-The paper minimises (8) by a genetic algorithm and then by Nelder-Mead, with fourth-order Runge-Kutta,
-and does not state its settings: here a population of 50 and the simplex's usual ones, small, so that
-the ratio is a lower bound (`lab/identify/examples/bench_report/paper.rs`, compiled by the same compiler). Its
-instructions are those of one evaluation times the evaluations. SciPy
-(`python3 benches/peers/bouc_wen_scipy.py RECORD.csv`) solves for the linear gains and gets every
-fifth sample, as a mean of five; its evaluations are of one parameter set each. Both fit the six
-parameters of the baseline model. Neither looks for what the model lacks, splits the record, gives
-intervals or a verdict; `identify` does.
+Nguyen et al. (2018) minimise (8) with a genetic algorithm and then with Nelder-Mead, and integrate with
+fourth-order Runge-Kutta. The paper does not state the settings. Here the population is 50, and the
+simplex has its usual settings; both are small, so the ratio is a lower bound
+(`lab/identify/examples/bench_report/paper.rs`, compiled with the same compiler). The instructions are
+those of one evaluation times the number of evaluations. SciPy
+(`python3 benches/peers/bouc_wen_scipy.py RECORD.csv`) solves for the linear gains and gets means of five
+samples; each of its evaluations is for one parameter set. Both fit the six parameters of the baseline
+model. Neither looks for a missing term, splits the record, or gives intervals or a verdict; `identify` does.
 
 ";
 
@@ -204,7 +204,7 @@ pub fn document(measured: &Measured, limits: &[Limit], instrument: Instrument) -
     };
     let quick = match measured.quick {
         true => {
-            " Written with `--quick`: the series are short, and most measured records are left out."
+            " Written with `--quick`: the series are short, and most measured records are omitted."
         }
         false => "",
     };
@@ -221,28 +221,32 @@ pub fn document(measured: &Measured, limits: &[Limit], instrument: Instrument) -
         "figure",
         "limit",
         "measured",
-        "distance, and what stands between",
+        "distance to the limit, and its causes",
     ];
     part("Distance to the limits", &counted, &table(&head, rows));
     let record =
-        "`bowden generate --mode torque --effect viscous --seed 7`, shorter and longer:\n\n";
-    part("Against samples", record, &samples(measured));
-    let record = "The same with `--effect asymmetry-eta`, and with more and fewer angles:\n\n";
+        "`bowden generate --mode torque --effect viscous --seed 7`, with other lengths:\n\n";
     part(
-        "Against the size of the catalogue",
+        "Cost over the number of samples",
+        record,
+        &samples(measured),
+    );
+    let record = "The same with `--effect asymmetry-eta`, and with other numbers of angles:\n\n";
+    part(
+        "Cost over the size of the catalogue",
         record,
         &angles(measured),
     );
     let record = format!(
-        "Records of 60 s that lack, each at twice the noise, the first of {}:\n\n",
+        "Records of 60 s with the first 0 to 4 of these effects, each at twice the noise: {}:\n\n",
         PLANTED.join(", ")
     );
     part(
-        "Against names",
+        "Cost over the number of missing terms",
         &record,
         &by_name("planted", &measured.names),
     );
-    let record = "The rows of [docs/results/measured.md](../docs/results/measured.md); their files are not part of the project.\n\n";
+    let record = "The rows of [docs/results/measured.md](../docs/results/measured.md); the files are not part of the project.\n\n";
     let mut rows = by_name("record", &measured.rows);
     for missing in &measured.missing {
         let _ = writeln!(rows, "\n{missing}.");
