@@ -44,7 +44,7 @@ fn any_series() -> Series<f32> {
 
 /// K3, bounded. The approach to 1 ends between its start and 1.
 ///
-/// Assumes: zeta ∈ \[0, 1\], any r but one below zero, any turn.
+/// Assumes: zeta ∈ \[0, 1\], any r that is not below zero, any turn.
 #[kani::proof]
 fn bounded_approach() {
     let (zeta, r) = (within(0.0, 1.0), kani::any::<f32>());
@@ -62,7 +62,7 @@ fn any_approach<N: Number>(zeta: N, _: N, r: N, _: N) -> N {
 
 /// K3, bounded. A path above zero ends between its start and 1.
 ///
-/// Assumes: zeta ∈ (0, 1], n ∈ [1, 1e9], any path, any power; the approach as by
+/// Assumes: zeta ∈ (0, 1], n ∈ [1, 1e9], any path, any power; the approach as proved by
 /// bounded_approach.
 #[kani::proof]
 #[kani::stub(approach, any_approach)]
@@ -74,11 +74,11 @@ fn bounded_loading() {
     assert!(zeta <= next && next <= 1.0);
 }
 
-/// K3, bounded. A path from zero ends within \[0, 1\], the one of length 1 from which longer
-/// ones go on among them.
+/// K3, bounded. A path from zero ends within \[0, 1\], including the path of length 1 from which
+/// longer paths continue.
 ///
-/// Assumes: n ∈ [1, 1e9], any path or none that is a number, any power, any series; the approach
-/// as by bounded_approach.
+/// Assumes: n ∈ [1, 1e9], any path that is not below zero (NaN included), any power, any series;
+/// the approach as proved by bounded_approach.
 #[kani::proof]
 #[kani::stub(approach, any_approach)]
 #[kani::stub(crate::real::short::coarse_power, stubs::garbage_of_two)]
@@ -107,11 +107,11 @@ fn any_shares<N: Number>(_: N, _: N) -> (N, N) {
     (any_number(|_| true), any_number(|_| true))
 }
 
-/// K3, bounded. A path below zero ends between its start and zero, and what it leaves there
-/// is not below zero.
+/// K3, bounded. A path below zero ends between its start and zero, and the rest of the path at zero
+/// is not negative.
 ///
-/// Assumes: zeta ∈ [-1, 0], c ∈ [0, 2e9], n ∈ [1, 1e9], any path, any power, any length of
-/// the path to zero.
+/// Assumes: zeta ∈ [-1, 0], c ∈ [0, 2e9], n ∈ [1, 1e9], any path, any power, any length of the path
+/// to zero.
 #[kani::proof]
 #[kani::stub(steep_share, any_steep_share)]
 #[kani::stub(flat_share, any_shares)]
@@ -154,9 +154,9 @@ fn any_from_zero<N: Number>(p: N, _: &Constants<N>) -> N {
     any_number(|next| zero <= next && next <= one)
 }
 
-/// K3, bounded. The step, its parts joined, ends between its start and 1.
+/// K3, bounded. The whole step, with its parts joined, ends between its start and 1.
 ///
-/// Assumes: zeta ∈ [-1, 1], any path, any power; the parts as by bounded_loading,
+/// Assumes: zeta ∈ [-1, 1], any path, any power; the parts as proved by bounded_loading,
 /// bounded_unloading and bounded_from_zero.
 #[kani::proof]
 #[kani::stub(load, any_load)]
@@ -177,10 +177,10 @@ fn any_step<N: Number>(zeta: N, _: N, _: &Constants<N>) -> N {
     any_number(|next| zeta.value() <= next && next <= N::Float::from_f64(1.0))
 }
 
-/// K3. The step of any accepted shape in `f32`: eta ends within ±1, and a finite change of
-/// the input never moves it backward.
+/// K3. The `f32` step with any accepted shape: eta ends within ±1, and a finite change of the input
+/// never moves it backwards.
 ///
-/// Assumes: any eta but NaN (one beyond ±1 counts as ±1), any change; the step as by
+/// Assumes: any eta but NaN (an eta beyond ±1 counts as ±1), any change; the step as proved by
 /// bounded_joined.
 #[kani::proof]
 #[kani::stub(follow, any_step)]
@@ -206,11 +206,11 @@ fn any_step_powered<N: Number>(zeta: N, p: N, _: N, shape: &Constants<N>) -> N {
     any_step(zeta, p, shape)
 }
 
-/// K3. The paths that the inverse tries in `f32`, of any accepted shape: eta ends within ±1 and
+/// K3. The paths that the inverse tries in `f32`, with any accepted shape: eta ends within ±1 and
 /// never moves against the direction of the search.
 ///
-/// Assumes: eta ∈ \[-1, 1\], any direction, any finite change; the step as by bounded_joined,
-/// any power.
+/// Assumes: eta ∈ \[-1, 1\], any direction, any finite change; the step as proved by
+/// bounded_joined, any power.
 #[kani::proof]
 #[kani::stub(follow_powered, any_step_powered)]
 #[kani::stub(crate::real::short::log2, stubs::garbage)]

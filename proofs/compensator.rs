@@ -44,11 +44,11 @@ fn compensator() -> Result<Compensator<f32, 1>, Error> {
     Compensator::try_new(&Model::try_new(Some(transmission), &[])?)?.with_play(kani::any())
 }
 
-/// K1. The compensator: for any sample the command is finite and eta within ±1, and a bad
-/// sample leaves both.
+/// K1. The compensator: for any sample the command is finite and eta is within ±1; a bad sample
+/// changes neither.
 ///
-/// Assumes: nothing of transmission, sample or valid state; any share of the effects, any
-/// root of the inverse, a step of the hysteresis as the rows of K3 prove it.
+/// Assumes: nothing about transmission, sample or valid state; any contribution of the effects, any
+/// root of the inverse, a step of the hysteresis as proved by the rows of K3.
 #[kani::proof]
 #[kani::unwind(6)]
 #[kani::stub(Model::effects, any_share)]

@@ -11,8 +11,8 @@ fn is_positive(x: f32) -> bool {
     x.is_finite() && x > 0.0
 }
 
-/// K13. Signals, limits and fallback: any bit pattern is accepted exactly where the docs say
-/// so, without a panic, and what is accepted reads back as it was given.
+/// K13. Signals, limits and fallback: any bit pattern is accepted exactly as documented, without a
+/// panic, and an accepted value reads back unchanged.
 #[kani::proof]
 fn signals_of_any_argument() {
     let (a, b): (f32, f32) = (kani::any(), kani::any());
@@ -39,8 +39,8 @@ fn signals_of_any_argument() {
     assert!(play.is_ok() == (a.is_finite() && a >= 0.0));
 }
 
-/// K13. Shapes, transmissions and hysteresis states: the same; an inverse only where the gain
-/// is not zero, and not nowhere.
+/// K13. Shapes, transmissions and hysteresis states: the same; an inverse exists only if the gain
+/// is not zero, and for some arguments it exists.
 #[kani::proof]
 fn transmissions_of_any_argument() {
     let start: f32 = kani::any();
@@ -91,8 +91,8 @@ fn estimator() -> Estimator<f32> {
 }
 
 /// K13. The adaptive law in both forms, two regressors: any settings are accepted or refused
-/// without a panic, some of either form are accepted; an accepted law starts from a state
-/// that is valid for it.
+/// without a panic, and some settings of either form are accepted; an accepted law starts from a
+/// state that is valid for it.
 #[kani::proof]
 #[kani::unwind(3)]
 fn laws_of_any_settings() {

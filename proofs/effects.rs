@@ -86,8 +86,8 @@ impl Regressor<f32> for Anything {
     }
 }
 
-/// K14. A regressor without memory is finite for any sample, whatever its formula gives;
-/// where a number that it reads is not finite, it is zero.
+/// K14. A regressor without memory is finite for any sample, whatever its formula returns; if a
+/// number that it reads is not finite, it is zero.
 #[kani::proof]
 #[kani::unwind(10)]
 fn any_formula_is_finite() {
@@ -98,7 +98,7 @@ fn any_formula_is_finite() {
     assert!(at.is_usable(<Anything as Regressor<f32>>::INFO.reads) || value == 0.0);
 }
 
-/// K14. Backlash: its regressor and its memory are finite for any sample; a bad one moves
+/// K14. Backlash: its regressor and its memory are finite for any sample; a bad sample changes
 /// neither.
 #[kani::proof]
 #[kani::unwind(10)]
@@ -106,21 +106,21 @@ fn backlash_is_finite() {
     any_sample(backlash::Backlash::try_new(kani::any()));
 }
 
-/// K14. The same of the play in series.
+/// K14. The same for the play in series.
 #[kani::proof]
 #[kani::unwind(10)]
 fn play_in_series_is_finite() {
     any_sample(backlash::PlayInSeries::try_new(kani::any()));
 }
 
-/// K14. The same of presliding.
+/// K14. The same for presliding.
 #[kani::proof]
 #[kani::unwind(10)]
 fn presliding_is_finite() {
     any_sample(presliding::Presliding::try_new(kani::any()));
 }
 
-/// K14. The same of creep.
+/// K14. The same for creep.
 #[kani::proof]
 #[kani::unwind(10)]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
@@ -128,7 +128,7 @@ fn creep_is_finite() {
     any_sample(creep::Creep::try_new(kani::any()));
 }
 
-/// K14. The same of the lag.
+/// K14. The same for the lag.
 #[kani::proof]
 #[kani::unwind(10)]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
@@ -136,15 +136,15 @@ fn lag_effect_is_finite() {
     any_sample(lag::Lag::try_new(kani::any()));
 }
 
-/// K14. The same of delay.
+/// K14. The same for the delay.
 #[kani::proof]
 #[kani::unwind(10)]
 fn delay_is_finite() {
     any_sample(Ok(Delay));
 }
 
-/// K14. What a delay of any length adds to the output, and its memory, are finite for any sample;
-/// one that it cannot read adds zero and leaves the memory.
+/// K14. The contribution of a delay of any length to the output, and its memory, are finite for any
+/// sample; on an unreadable sample it adds zero and keeps its memory.
 #[kani::proof]
 #[kani::unwind(10)]
 fn late_output_is_finite() {
@@ -155,8 +155,8 @@ fn late_output_is_finite() {
     assert!(kept && remembers_finite_numbers(&state));
 }
 
-/// K14. A segment of a curve is within 0 and 1, whatever is finite: a curve stays between its least
-/// and its largest point.
+/// K14. A segment of a curve is within 0 and 1 for any finite input: a curve stays between its
+/// smallest and its largest point.
 #[kani::proof]
 #[kani::unwind(10)]
 fn curve_is_within_its_points() {
@@ -177,7 +177,7 @@ fn any_sum<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
     [total, lost]
 }
 
-/// K14. The compensated sum in which an effect remembers is finite after any finite step.
+/// K14. The compensated sum that is an effect's memory is finite after any finite step.
 #[kani::proof]
 fn sum_is_finite() {
     let (before, step) = ([finite(), finite()], finite());
@@ -186,9 +186,9 @@ fn sum_is_finite() {
     assert!(total.is_finite() && carry.is_finite());
 }
 
-/// K14. As backlash above: Dahl's curve.
+/// K14. The same as backlash above for Dahl's curve.
 ///
-/// Assumes: nothing of sample or memory; the sum as proved by sum_is_finite.
+/// Assumes: nothing about sample or memory; the sum as proved by sum_is_finite.
 #[kani::proof]
 #[kani::unwind(10)]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
@@ -197,9 +197,9 @@ fn dahl_is_finite() {
     any_sample(presliding::PreslidingDahl::try_new(kani::any()));
 }
 
-/// K14. As backlash above: degradation, with the work done.
+/// K14. The same as backlash above for degradation, including the accumulated work.
 ///
-/// Assumes: nothing of sample or memory; the sum as proved by sum_is_finite.
+/// Assumes: nothing about sample or memory; the sum as proved by sum_is_finite.
 #[kani::proof]
 #[kani::unwind(10)]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
@@ -208,7 +208,7 @@ fn degradation_is_finite() {
     any_sample(degradation::Degradation::try_new(kani::any()));
 }
 
-/// K14. The contract of saturation: whatever comes in, what goes out is finite.
+/// K14. The contract of saturation: for any input the output is finite.
 #[kani::proof_for_contract(saturate)]
 fn saturate_contract() {
     let x: f32 = kani::any();

@@ -51,7 +51,7 @@ fn unloading_part() {
     assert!(!last || next == 0.0 || !(left > 0.0));
 }
 
-/// K3. The part of a path that leaves zero ends within \[0, 1\].
+/// K3. The part of a path that starts at zero ends within \[0, 1\].
 ///
 /// Assumes: n ∈ [1, 1e9], any path above zero.
 #[kani::proof]
@@ -104,8 +104,8 @@ fn any_part_from_zero<N: Number>(_: N, _: N) -> (N, N) {
     (next, any_number(|left| left >= zero))
 }
 
-/// K3. The branch below zero, from the last pass of its loop to its end, ends between its
-/// start and 0, and below 0 only with the path used up.
+/// K3. The branch below zero, from the last pass of its loop to its end, ends between its start and
+/// 0; it ends below 0 only if the path is used up.
 ///
 /// Assumes: zeta ∈ [-1, 1], any path, the part as proved by unloading_part.
 #[kani::proof]
@@ -123,8 +123,8 @@ fn unloading_loop() {
     }
 }
 
-/// K3. The branch above zero, from the last pass of its loop to its end, ends between its
-/// start, or 0 where that is within 1e-9 below it, and 1.
+/// K3. The branch above zero, from the last pass of its loop to its end, ends between its start (or
+/// 0, if the start is less than 1e-9 above 0) and 1.
 ///
 /// Assumes: zeta ∈ [0, 1], any path, the parts as proved by loading_part and part_from_zero.
 #[kani::proof]
@@ -160,11 +160,10 @@ fn any_loading<N: Number>(zeta: N, path: N, _: N) -> N {
     any_number(|next| not_before(zeta.value(), next) && next <= N::Float::from_f64(1.0))
 }
 
-/// K3. The general step, both branches joined, ends between its start, or 0 where that is
-/// within 1e-9 below it, and 1.
+/// K3. The general step, with both branches joined, ends between its start (or 0, if the start is
+/// less than 1e-9 above 0) and 1.
 ///
-/// Assumes: zeta ∈ [-1, 1], any path, the branches as proved by unloading_loop and
-/// loading_loop.
+/// Assumes: zeta ∈ [-1, 1], any path, the branches as proved by unloading_loop and loading_loop.
 #[kani::proof]
 #[kani::stub(unload, any_unloading)]
 #[kani::stub(load, any_loading)]
@@ -219,11 +218,11 @@ fn any_step<N: Number>(zeta: N, _: N, _: N, _: N) -> N {
     any_number(|next| not_before(zeta.value(), next) && next <= N::Float::from_f64(1.0))
 }
 
-/// K3. The step that splits its path, of any accepted shape: eta ends within ±1, and a finite change of the input
-/// never moves it backward.
+/// K3. The splitting step with any accepted shape: eta ends within ±1, and a finite change of the
+/// input never moves it backwards.
 ///
-/// Assumes: any eta but NaN (one beyond ±1 counts as ±1), any change; the general step as
-/// proved by both_branches, the closed forms as by closed_form_of_n_1 and closed_form_of_n_2.
+/// Assumes: any eta but NaN (an eta beyond ±1 counts as ±1), any change; the general step as proved
+/// by both_branches, the closed forms as proved by closed_form_of_n_1 and closed_form_of_n_2.
 #[kani::proof]
 #[kani::stub(follow, any_step)]
 #[kani::stub(closed::linear, any_closed_form)]

@@ -28,9 +28,9 @@ fn any_reading<T: Real>(_: &[T], _: usize, _: T) -> T {
     T::from_f64(kani::any())
 }
 
-/// K15. Iterative learning: for any sample, any state and any contents of the buffers, NaN included, the
-/// feed-forward is finite and within its limit, a cell that learns ends within it, nothing moves
-/// without a phase, and every sample is told for what it is.
+/// K15. Iterative learning: for any sample, any state and any contents of the buffers, NaN
+/// included, the feed-forward is finite and within its limit, a cell that learns ends within the
+/// limit, nothing changes without a phase, and the status of every sample is correct.
 ///
 /// Assumes: 13 cells, a lead of at most 2 and a half width of at most 1; any means and readings.
 #[kani::proof]

@@ -58,11 +58,12 @@ fn any_lags<T: Real>(
     }
 }
 
-/// K15. The disturbance observer: for any sample and any state, NaN in every number included, the
-/// estimate is finite and within its limit, a bad sample holds it, and every sample is told for
-/// what it is.
+/// K15. The disturbance observer: for any sample and any state, with NaN in any number, the
+/// estimate is finite and within its limit, a bad sample holds it, and the status of every sample
+/// is correct.
 ///
-/// Assumes: nothing of observer, sample or state; any movement of the lags, any estimate of them.
+/// Assumes: nothing about observer, sample or state; any movement of the lags, any estimate from
+/// them.
 #[kani::proof]
 #[kani::unwind(6)]
 #[kani::stub(DisturbanceObserver::estimate, any_estimate)]

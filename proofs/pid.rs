@@ -110,11 +110,13 @@ fn rate() -> DerivativeSource<f32> {
     }
 }
 
-/// K1. PID without anti-windup: for any sample the command is finite, within its limits and its
-/// slew rate, the state stays valid; a bad sample leaves the state, and the command or the safe
-/// one is out; none is good with dt ≤ 0 or a number that is not finite.
+/// K1. PID without anti-windup: for any sample the command is finite and within its limits and its
+/// slew-rate limit, and the state stays valid. A bad sample leaves the state unchanged, and either
+/// the last command or the safe command is applied. No sample counts as good if dt ≤ 0 or a number
+/// is not finite.
 ///
-/// Assumes: nothing of gains, sample or valid state; the limits as by slew_limit_any_rate.
+/// Assumes: nothing about gains, sample or valid state; the limits as proved by
+/// slew_limit_any_rate.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 #[kani::stub(wrapped, stubs::any_turn)]
@@ -124,9 +126,9 @@ fn pid_any_sample_none() {
     any_sample(AntiWindup::None, rate());
 }
 
-/// K1. The same with the integral within the range.
+/// K1. The same with the integral clamped to the range.
 ///
-/// Assumes: as pid_any_sample_none.
+/// Assumes: the same as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 #[kani::stub(wrapped, stubs::any_turn)]
@@ -138,7 +140,7 @@ fn pid_any_sample_clamp() {
 
 /// K1. The same with conditional integration.
 ///
-/// Assumes: as pid_any_sample_none.
+/// Assumes: the same as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 #[kani::stub(wrapped, stubs::any_turn)]
@@ -150,7 +152,7 @@ fn pid_any_sample_conditional() {
 
 /// K1. The same with back-calculation.
 ///
-/// Assumes: as pid_any_sample_none.
+/// Assumes: the same as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(libm::expm1f, stubs::expm1f)]
 #[kani::stub(wrapped, stubs::any_turn)]
@@ -161,9 +163,9 @@ fn pid_any_sample_back_calculation() {
     any_sample(AntiWindup::BackCalculation { tracking_time }, rate());
 }
 
-/// K1. The same of PIV, conditional integration.
+/// K1. The same for PIV with conditional integration.
 ///
-/// Assumes: as pid_any_sample_none.
+/// Assumes: the same as pid_any_sample_none.
 #[kani::proof]
 #[kani::stub(wrapped, stubs::any_turn)]
 #[kani::stub(Limits::apply, limited::apply)]
@@ -172,10 +174,10 @@ fn piv_any_sample() {
     any_sample(AntiWindup::Conditional, DerivativeSource::Velocity);
 }
 
-/// K1. A difference that is no number stays none when it is wrapped, whatever the period: the
-/// rows above replace `wrapped` by any float for a number, and by none otherwise.
+/// K1. A difference that is not finite stays so when it is wrapped, for any period: the rows above
+/// replace `wrapped` by any float for a finite difference, and by NaN otherwise.
 ///
-/// Assumes: nothing.
+/// Assumes: nothing
 #[kani::proof]
 fn wrapped_of_no_number_is_none() {
     let (difference, period): (f32, f32) = (kani::any(), kani::any());
@@ -185,10 +187,10 @@ fn wrapped_of_no_number_is_none() {
     assert!(!wrapped(difference, period).is_finite());
 }
 
-/// K15. From any state, of whatever bits: the command is finite and within the limits, and a
-/// safe command that is latched stays out.
+/// K15. From any state with any bits: the command is finite and within the limits, and a latched
+/// safe command stays applied.
 ///
-/// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate.
+/// Assumes: nothing about gains, sample or state; the limits as proved by slew_limit_any_rate.
 #[kani::proof]
 #[kani::stub(wrapped, stubs::garbage_of_two_real)]
 #[kani::stub(Limits::apply, limited::apply)]
@@ -203,9 +205,9 @@ fn pid_from_any_state() {
     assert!(kept);
 }
 
-/// K16. The score of bad samples keeps up with the worst stretch of samples, so that the safe
-/// command is out when `(weight + 1)·B - n` of any stretch reaches `after·weight`. One step of
-/// an induction: the margin of the worst stretch that ends here moves by the weight or by -1.
+/// K16. The score of bad samples is never below that of the worst stretch of samples, so the safe
+/// command is applied once `(weight + 1)·B - n` of any stretch reaches `after·weight`. One step of
+/// an induction: the margin of the worst stretch that ends here changes by the weight or by -1.
 #[kani::proof]
 fn score_keeps_up() {
     let fallback = fallback();
@@ -236,11 +238,11 @@ fn score_keeps_up() {
     assert!(out == held.is_latched());
 }
 
-/// K17. A change of the integral that takes the command beyond its range is whole where it points
-/// away from that end; else it is cut, to what fills the range or, of an integral beyond that, to
-/// where it was.
+/// K17. A change of the integral that takes the command beyond its range acts in full if it points
+/// away from that limit. Otherwise it is cut to the value that fills the range or, for an integral
+/// beyond the range, to its previous value.
 ///
-/// Assumes: any law with conditional integration or a clamp, any numbers of which the sum is finite.
+/// Assumes: any law with conditional integration or a clamp, any numbers with a finite sum.
 #[kani::proof]
 fn a_change_is_whole_or_fills_the_limit() {
     let clamps = kani::any();
@@ -272,11 +274,11 @@ fn a_change_is_whole_or_fills_the_limit() {
     assert!(kept == value || fills);
 }
 
-/// K17. Without `k_i` the integral comes nearer to zero with every sample, keeps its sign, and is
-/// zero in the end: a float has finitely many values between.
+/// K17. Without `k_i` the integral moves closer to zero with every sample, keeps its sign, and
+/// finally is zero, because there are finitely many floats in between.
 ///
-/// Assumes: any law without `k_i`, any valid state, a finite dt of 1 µs or more: below an epsilon of
-/// the float, in seconds, a sample is too short to move it.
+/// Assumes: any law without `k_i`, any valid state, a finite dt of 1 µs or more (a dt in seconds
+/// below the epsilon of the float is too short to change the integral).
 #[kani::proof]
 fn without_k_i_the_integral_returns_to_zero() {
     let pid = pid(AntiWindup::Conditional, rate());
@@ -289,11 +291,11 @@ fn without_k_i_the_integral_returns_to_zero() {
     assert!(after == 0.0 || (after.abs() < before.abs() && (after > 0.0) == (before > 0.0)));
 }
 
-/// K17. A law is told what the drive did: the next step goes on from the command that went out, the
-/// integral moves towards where it was before the last change and no further, and a second time
-/// moves nothing.
+/// K17. After a report of the drive's response, the next step continues from the reported command.
+/// The integral moves towards its value before the last change and not beyond it, and a second
+/// report changes nothing.
 ///
-/// Assumes: nothing of law and valid state.
+/// Assumes: nothing about law and valid state.
 #[kani::proof]
 fn what_the_drive_did_takes_a_change_back_once() {
     let (pid, mut state) = (pid(AntiWindup::Conditional, rate()), state());
@@ -321,8 +323,8 @@ fn what_the_drive_did_takes_a_change_back_once() {
     assert!(state.integral() == twice && (twice == once || is == was));
 }
 
-/// K10. Other settings take a running PID over: the command that is out stays, from which a
-/// slew rate goes on, the state stays valid, and only the integral moves.
+/// K10. Bumpless transfer of a running PID to other settings: the applied command is kept, and a
+/// slew-rate limit continues from it; the state stays valid, and only the integral changes.
 #[kani::proof]
 #[kani::stub(wrapped, stubs::garbage_of_two_real)]
 fn pid_take_over() {
@@ -334,8 +336,8 @@ fn pid_take_over() {
     assert!(kept && state.rate() == before.rate() && state.is_valid());
 }
 
-/// K10. A PID that starts from an output: whatever output and sample, the command is that
-/// output within the range and the state is valid, or integral, rate and command stay.
+/// K10. A PID that resumes from an output: for any output and sample, either the command is that
+/// output within the range and the state is valid, or integral, rate and command do not change.
 #[kani::proof]
 #[kani::stub(wrapped, stubs::garbage_of_two_real)]
 fn pid_resume_from() {

@@ -114,11 +114,11 @@ fn any_ultimate<T: Real>(_: &Relay<T>, _: &Mean<T>) -> Ultimate<T> {
     }
 }
 
-/// K15. The relay experiment: for any sample and any state, NaN in every number included, the command
-/// is within the limits, the safe command is out after a failure and the centre after a result, both
-/// for good, and every sample of a running experiment takes from the ticks that remain.
+/// K15. The relay experiment: for any sample and any state, with NaN in any number, the command is
+/// within the limits. After a failure the safe command is applied, and after a result the centre,
+/// both permanently. Every sample of a running experiment reduces the remaining ticks.
 ///
-/// Assumes: nothing of settings, sample or state; any average of the cycles, any result of it.
+/// Assumes: nothing about settings, sample or state; any average of the cycles, any result from it.
 #[kani::proof]
 #[kani::stub(Mean::of, any_cycle)]
 #[kani::stub(Mean::joined_by, any_average)]

@@ -12,7 +12,7 @@ use bowden::signal::{Implausible, Plausible, PlausibleState};
 use bowden::Real;
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// K6. Clamping an estimate onto a box moves it towards any truth that the box holds.
+/// K6. Clamping an estimate to its bounds moves it towards any true value within the bounds.
 #[kani::proof]
 fn projection() {
     let (p, truth, low, high): (f32, _, _, _) = (kani::any(), finite(), finite(), finite());
@@ -21,7 +21,7 @@ fn projection() {
     assert!(projection_moves_towards_the_truth(p, truth, low, high));
 }
 
-/// K7. The clamped line lies within ±1, is odd to the bit and never points the other way.
+/// K7. The clamped line lies within ±1, is odd to the bit and never has the opposite sign.
 #[kani::proof]
 fn smooth_sign_clamp() {
     let x: f32 = kani::any();
@@ -29,7 +29,7 @@ fn smooth_sign_clamp() {
     assert!(smooth_sign_is_a_sign(SmoothSign::Clamp, x));
 }
 
-/// K7. The clamped line leaves x·(1 - T) ≤ 1/4 for x ≥ 0, to two ulps. (tanh: all 2³² inputs,
+/// K7. For the clamped line, x·(1 - T) ≤ 1/4 for x ≥ 0, to two ulps. (tanh: all 2³² inputs,
 /// `tests/exhaustive.rs`.)
 #[kani::proof]
 fn smooth_sign_clamp_residue() {
@@ -38,7 +38,7 @@ fn smooth_sign_clamp_residue() {
     assert!(smooth_sign_leaves_at_most_its_residue(SmoothSign::Clamp, x));
 }
 
-/// K8. From rate zero on, the rate of a signal within ±E never exceeds 2·E/tau: it stays
+/// K8. Starting from rate zero, the rate of a signal within ±E never exceeds 2·E/tau: it stays
 /// within share/dt·(x ± 1.1·E) around the signal x, and 2.1·share/dt is less.
 ///
 /// Assumes: E = 1, tau = 5 ms, dt = 1/1024 s.
@@ -52,8 +52,8 @@ fn derivative_of_a_bounded_signal() {
     }
 }
 
-/// K10. A command lies within the range, and within slew·dt of the one before wherever that
-/// lay in the range; so after a hand-over or a change of gains, too.
+/// K10. A command lies within the range, and within slew·dt of the previous command if that lay in
+/// the range; this includes a transfer or a change of gains.
 ///
 /// Assumes: any range, 1024 units/s, dt = 1/1024 s, commands within ±1000.
 #[kani::proof]
@@ -69,10 +69,10 @@ fn slew_limit() {
     }
 }
 
-/// K11. A play stays in the band around its input and moves only as far as it must; a bad
-/// input moves nothing.
+/// K11. A play stays within the band around its input and moves by the smallest necessary amount; a
+/// bad input does not move it.
 ///
-/// Assumes: half-width 0.5, any finite output before, any input.
+/// Assumes: half-width 0.5, any finite previous output, any input.
 #[kani::proof]
 fn play() {
     let input: f32 = kani::any();
@@ -103,9 +103,10 @@ fn any_ends<T: Real>(last: T, _: T) -> (T, T) {
     (there, back)
 }
 
-/// K10. A slew limit's ends lie on either side of the command before, whatever rate and dt.
+/// K10. The ends of a slew-rate limit lie on either side of the previous command, for any rate and
+/// dt.
 ///
-/// Assumes: a finite slew rate and a finite dt above zero, a finite command before.
+/// Assumes: a finite slew rate, a finite dt above zero, a finite previous command.
 #[kani::proof]
 fn slew_reaches_around() {
     let (slew, dt, last) = (finite(), finite(), finite());
@@ -115,10 +116,10 @@ fn slew_reaches_around() {
     assert!(low <= last && last <= high);
 }
 
-/// K15. Whatever the command before, the slew rate and dt are, NaN included: a command that is
-/// wanted, infinite or not, ends within the range.
+/// K15. For any previous command, slew rate and dt, NaN included: a wanted command, even an
+/// infinite one, ends within the range.
 ///
-/// Assumes: any limits, any ends of the slew rate's reach.
+/// Assumes: any limits, any ends of the slew-rate limit.
 #[kani::proof]
 #[kani::stub(around, all_ends)]
 fn slew_limit_from_any_command() {
@@ -140,11 +141,11 @@ fn all_ends<T: Real>(_: T, _: T) -> (T, T) {
     (T::from_f64(kani::any()), T::from_f64(kani::any()))
 }
 
-/// K10. The same as slew_limit for any slew rate, any finite dt above zero and any command:
-/// within the range, and within the limit's ends wherever the command before lay in the range.
+/// K10. The same as slew_limit for any slew rate, any finite dt above zero and any command: within
+/// the range, and within the ends of the slew-rate limit if the previous command lay in the range.
 ///
-/// Assumes: any limits, a finite dt above zero (controllers refuse any other), a finite command
-/// before and wanted; the ends as proved by slew_reaches_around.
+/// Assumes: any limits, a finite dt above zero (controllers refuse any other), a finite previous
+/// and wanted command; the ends as proved by slew_reaches_around.
 #[kani::proof]
 #[kani::stub(around, any_ends)]
 fn slew_limit_any_rate() {
@@ -172,8 +173,8 @@ fn is_usable(sample: f32, dt: f32) -> bool {
     sample.is_finite() && dt.is_finite() && dt > 0.0
 }
 
-/// K15. The first-order low-pass: for any sample the output is finite, so that the next step
-/// starts from such a state again; a bad sample leaves the state.
+/// K15. The first-order low-pass: for any sample the output is finite, so the next step starts from
+/// such a state again; a bad sample leaves the state unchanged.
 ///
 /// Assumes: any filter, any finite numbers in the state.
 #[kani::proof]
@@ -209,8 +210,8 @@ fn biquad() -> Biquad<f32> {
     }
 }
 
-/// K15. The second-order section, as the first-order one: for any sample the output is finite;
-/// a bad sample leaves the state.
+/// K15. The same for the second-order section: for any sample the output is finite; a bad sample
+/// leaves the state unchanged.
 ///
 /// Assumes: any filter, any finite numbers in the state.
 #[kani::proof]
@@ -226,8 +227,8 @@ fn biquad_any_sample() {
     assert!(is_usable(sample, dt) || state == before);
 }
 
-/// K15. The velocity between counts: for any sample it is finite, a bad sample leaves it, and a
-/// stop that is told has the velocity zero.
+/// K15. The velocity from counts: for any sample it is finite, a bad sample leaves it unchanged,
+/// and at a reported stop the velocity is zero.
 ///
 /// Assumes: any settings, any finite numbers in the state.
 #[kani::proof]
@@ -253,8 +254,8 @@ fn edge_velocity_any_sample() {
     }
 }
 
-/// K15. Plausibility: for any sample and any state, NaN included, the value is the sample, finite
-/// and within the range, or NaN with a fault; a number that repeats is never too fast.
+/// K15. Plausibility: for any sample and any state, NaN included, the result is either the sample,
+/// finite and within the range, or NaN with a fault; a repeated number is never too fast.
 ///
 /// Assumes: a range of ±100, any rate, sample period, longest dt and count of stuck samples.
 #[kani::proof]
@@ -295,10 +296,10 @@ fn plausible_any_sample() {
     }
 }
 
-/// K13. Filters, the velocity between counts and the sample period: any bit pattern is accepted
-/// exactly where the docs say so, without a panic.
+/// K13. Filters, the velocity from counts and the sample period: any bit pattern is accepted
+/// exactly as documented, without a panic.
 ///
-/// Assumes: a slope of the second-order section that is a finite float.
+/// Assumes: a finite slope of the second-order section.
 #[kani::proof]
 #[kani::stub(crate::signal::biquad::prewarped::slope, any_finite_slope)]
 fn filters_of_any_argument() {

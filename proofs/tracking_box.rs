@@ -46,9 +46,9 @@ fn a_step_keeps_the_box(law: &LagRecursion<f32>, dt: f32, by: &Disturbance<f32>,
     assert!(errors_stay_in_their_box(law, at, dt, by, most));
 }
 
-/// K2. Table 2 at 1 kHz: |s| ≤ 0.43 N·m stays so, hence |e| ≤ 0.86 N·m.
+/// K2. Table 2 at 1 kHz: if |s| ≤ 0.43 N·m holds, it continues to hold; hence |e| ≤ 0.86 N·m.
 ///
-/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat = 0, a disturbance at rest.
+/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat = 0, a constant disturbance.
 #[kani::proof]
 fn tracking_box() {
     let by = any_disturbance(0.0, 8.0, 0.0);
@@ -57,7 +57,7 @@ fn tracking_box() {
 
 /// K2. The same with the clamped line as smooth sign, epsilon = 0.05 N·m.
 ///
-/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 4] N·m, a disturbance at rest.
+/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 4] N·m, a constant disturbance.
 #[kani::proof]
 fn tracking_box_clamp() {
     let by = any_disturbance(4.0, 8.0, 0.0);
@@ -66,7 +66,7 @@ fn tracking_box_clamp() {
 
 /// K2. The same with tanh as smooth sign, epsilon = 0.05 N·m.
 ///
-/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 4] N·m, a disturbance at rest.
+/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 4] N·m, a constant disturbance.
 #[kani::proof]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
 fn tracking_box_tanh() {
@@ -74,10 +74,10 @@ fn tracking_box_tanh() {
     a_step_keeps_the_box(&paper(SmoothSign::Tanh), 0.001, &by, 0.43);
 }
 
-/// K2. Table 2 at 1 kHz on a plant that moves by itself: |s| ≤ 0.48 N·m, |e| ≤ 0.96 N·m.
+/// K2. Table 2 at 1 kHz with a varying disturbance: |s| ≤ 0.48 N·m, |e| ≤ 0.96 N·m.
 ///
-/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 4] N·m, |xi| ≤ 0.008 N·m a sample
-/// (8 N·m/s).
+/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 4] N·m, |xi| ≤ 0.008 N·m per sample (8
+/// N·m/s).
 #[kani::proof]
 fn tracking_box_moving() {
     let by = any_disturbance(4.0, 8.0, 0.008);
@@ -86,7 +86,7 @@ fn tracking_box_moving() {
 
 /// K2. k = 12, lambda = 4/s, epsilon = 0.2 N·m at 500 Hz: |s| ≤ 0.85 N·m, |e| ≤ 1.7 N·m.
 ///
-/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 7] N·m, a disturbance at rest.
+/// Assumes: |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0, 7] N·m, a constant disturbance.
 #[kani::proof]
 fn tracking_box_second_set() {
     let law = LagRecursion {
@@ -98,11 +98,12 @@ fn tracking_box_second_set() {
     a_step_keeps_the_box(&law, 0.002, &any_disturbance(7.0, 8.0, 0.0), 0.85);
 }
 
-/// K2. Theorem 1's bound is carried over a step: |s| ≤ delta and |z| ≤ delta stay so, hence
-/// |e| ≤ (1 + lambda)·delta, whatever delta the theorem gives. (Table 2: 126.5 N·m.)
+/// K2. Theorem 1's bound holds over a step: if |s| ≤ delta and |z| ≤ delta hold, they continue to
+/// hold, hence |e| ≤ (1 + lambda)·delta, for any delta that the theorem gives. (Table 2: 126.5
+/// N·m.)
 ///
-/// Assumes: Table 2 at 1 kHz, delta ∈ [0.5, 1000] N·m, |w| ≤ 8 N·m, g ∈ [0.8, 1.2],
-/// delta_hat ∈ [0, 4] N·m, |xi| ≤ 0.008 N·m a sample.
+/// Assumes: Table 2 at 1 kHz, delta ∈ [0.5, 1000] N·m, |w| ≤ 8 N·m, g ∈ [0.8, 1.2], delta_hat ∈ [0,
+/// 4] N·m, |xi| ≤ 0.008 N·m per sample.
 #[kani::proof]
 fn theorem_1_is_carried_over() {
     let (law, delta) = (paper(SmoothSign::Clamp), within(0.5, 1000.0));

@@ -67,8 +67,8 @@
 //!
 //! # Features
 //! All features are off by default:
-//! - `serde`: configurations deserialise through their checks. A [model](model::Model) uses the
-//!   file format that `bowden identify --model-out` writes.
+//! - `serde`: configurations are checked when they are deserialised. A [model](model::Model) uses
+//!   the file format that `bowden identify --model-out` writes.
 //! - `defmt`: types implement `defmt::Format`.
 //! - `std`: the crate links the standard library.
 #![no_std]

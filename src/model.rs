@@ -50,7 +50,7 @@ pub enum Source {
 /// The effect reads `motion.position − origin`; velocity and acceleration come unchanged from the
 /// sensor. The zero of a sensor is arbitrary. An effect such as `x·|x|` or `x·tanh(v/v_e)` is even,
 /// odd or largest about a specific position. A different zero gives a different function, which no
-/// gain corrects. The bench identifies or selects this position. The firmware must use the same
+/// gain corrects. The bench identifies or selects this position, and the firmware must use the same
 /// origin with the same gain. Shape parameters that are positions (`x_h`) are measured from the
 /// origin. The origin does not shift the transmission's input, even if an effect reads the input in
 /// addition to its source (`degradation`).
@@ -102,12 +102,12 @@ pub struct Sample<'a, T> {
 /// A transmission plus at most `N` effects.
 ///
 /// # Formats (feature `serde`)
-/// In a human-readable format (TOML, JSON) a model is a file of schema `bowden.model/1`, as
-/// `bowden identify --model-out model.toml` writes it. Reading and writing use no heap; the
-/// channels' names take 2 KB of stack, 64 bits for each name. A term names its effect, its shape
-/// parameters, and its source. The source is `input` or one of `channels`, in the order of
-/// [`Sample::channels`]. The table `about` may hold any keys; every other key is checked. A model
-/// stores only the numbers of its channels and writes them as `channel_0`, ….
+/// In a human-readable format (TOML, JSON) a model is a file of schema `bowden.model/1`, as `bowden
+/// identify --model-out model.toml` writes it. Reading and writing use no heap; the channels' names
+/// take 2 KB of stack, 64 bits for each name. A term states its effect, its shape parameters, and
+/// its source. The source is `input` or one of `channels`, in the order of [`Sample::channels`].
+/// The table `about` may contain any keys; every other key is checked. A model stores only the
+/// numbers of its channels and writes them as `channel_0`, ….
 ///
 /// Every other format, such as postcard, stores the parts in order, without names: 143 bytes in
 /// `f32` for eight terms with eight shape parameters. The bytes state neither their precision nor
@@ -341,11 +341,12 @@ impl<T: Real, const N: usize> Model<T, N> {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same step, which also reports each term's share of the output.
+    /// The same step, which also reports each term's contribution to the output.
     ///
     /// The step calls `share(index, gain·regressor)` once per term, output stages last. It makes no
-    /// call on a bad sample. The difference between the output and the shares is the share of the
-    /// transmission. It contains the effect of the input stages, which make no call either.
+    /// call on a bad sample. The difference between the output and the sum of these contributions
+    /// is the contribution of the transmission. It includes the effect of the input stages, for
+    /// which no call is made.
     ///
     /// ```
     /// use bowden::effect::{Effect, Motion};

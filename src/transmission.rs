@@ -10,8 +10,8 @@
 //! input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`, and
 //! 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
 //! bound is 0.743 for the first parameter set of Nguyen et al. (2018), which has sigma = 98.36.
-//! Such a set is suitable for playback and identification. In a closed loop, the output of such a
-//! plant would fall while its input rises.
+//! Such a set is suitable only for simulation and identification. In a closed loop, the output of
+//! such a plant would fall while its input rises.
 //!
 //! This is the slope of the equation. The `f32` step is no steeper up to n = 4 (proved) and up to
 //! n = 10 (measured). From about n = 12 on it may be 1.39 times as steep, see
@@ -23,7 +23,7 @@
 //! The model treats every noise sample on its input as a reversal. Noise of 0.05 N·m rms on `tau_i`
 //! moves `kappa_eta·eta` of the first set by 3.7 N·m rms. A [`Play`](crate::signal::Play) in front
 //! of the model reduces this to 0.74 (sigma = 1/2: from 1.8 to 0.11). Its half-width is four times
-//! the noise's standard deviation. The numbers are from the test
+//! the noise's standard deviation. These numbers are from the test
 //! `noise_destroys_the_state_and_a_play_guards_it` in `tests/transmission.rs`. A play delays a
 //! reversal by its width: use it on a measured input, not on a commanded input.
 
@@ -36,7 +36,7 @@ mod inverse;
 
 pub use inverse::Inverse;
 
-/// The greatest sigma that a [`BoucWen`] accepts.
+/// The largest sigma that a [`BoucWen`] accepts.
 const MOST: f64 = 1e9;
 
 /// Input and output quantities of a [`Transmission`].
@@ -147,7 +147,7 @@ impl<T: Real> Transmission<T> {
     ///
     /// `b` is the torque ratio `1 - kappa_tau`, `kappa_eta` [N·m] is the hysteresis torque at
     /// saturation, and `t0` [N·m] is the preload. Physical values are `0 < b <= 1` and
-    /// `kappa_eta >= 0`. Any finite value is accepted, so every result of a fit can be
+    /// `kappa_eta >= 0`, but any finite value is accepted, so that every result of a fit can be
     /// represented.
     ///
     /// # Errors
@@ -242,11 +242,11 @@ impl<T: Real> Transmission<T> {
         self.output(input, state.eta())
     }
 
-    /// The greatest sigma for which this transmission has an inverse.
+    /// The largest sigma for which this transmission has an inverse.
     ///
     /// The value is `|gain|/(2·|kappa_eta|·rho)`, rounded down as [`inverse`](Self::inverse)
     /// requires. If the hysteresis adds to the gain (a spring), the output never reverses, and the
-    /// value is the greatest sigma that a [`BoucWen`] accepts. `None` means that no sigma gives an
+    /// value is the largest sigma that a [`BoucWen`] accepts. `None` means that no sigma gives an
     /// inverse: the gain is zero, or the bound is below 1/2, which means `rho >
     /// |gain|/|kappa_eta|`.
     ///

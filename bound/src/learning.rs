@@ -20,7 +20,7 @@ const MOST_BOXES: u32 = 500_000;
 /// Most halvings of a region.
 const MOST_HALVINGS: u32 = 80;
 
-/// Convergence of iterative learning, in addition to a P or PI, on every plant of a range.
+/// Convergence of iterative learning on top of a P or PI, for every plant of a range.
 ///
 /// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)`
 /// be the transfer function from feed-forward to measured output. The factor of a tone of the
@@ -44,12 +44,12 @@ const MOST_HALVINGS: u32 = 80;
 /// In the images `|G|` is at most its bound above the cells' Nyquist frequency, and their total
 /// factor is at most `0.32·|sin(w·T/2)|³`.
 ///
-/// The error therefore converges to its limit e* from any start. *Proof.* In cell time the learned
-/// feed-forward is `z⁻ⁿ·H` times its value n cells before, plus external inputs. This operator is
-/// causal, as `lead + half_width + 1 < n`. It is as stable as the loop, and its magnitude is below
-/// 1 on the unit circle. The magnitude is therefore below 1 everywhere outside the circle, so `1 −
-/// z⁻ⁿ·H` has no zero there. With a PI without forgetting it is 1 at `z = 1`: the learned mean and
-/// the integral of the law are interchangeable. The output shows neither. ∎
+/// The error therefore converges to its limit e* from any start. *Proof.* In units of cells, the
+/// learned feed-forward is `z⁻ⁿ·H` times its value n cells earlier, plus external inputs. This
+/// operator is causal, as `lead + half_width + 1 < n`. It is as stable as the loop, and its
+/// magnitude is below 1 on the unit circle. The magnitude is therefore below 1 everywhere outside
+/// the circle, so `1 − z⁻ⁿ·H` has no zero there. With a PI without forgetting it is 1 at `z = 1`:
+/// the learned mean and the integral of the law are interchangeable. The output shows neither. ∎
 ///
 /// A tone of `e − e*` falls by a factor of about |H| from cycle to cycle. The factor is exact
 /// if the change of a cycle has settled before the next one. At harmonics e* is zero if
@@ -68,8 +68,7 @@ const MOST_HALVINGS: u32 = 80;
 /// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
 /// slope that changes along the path.
 ///
-/// If no proof was found, the number of regions may have been too small rather than the range
-/// too wide.
+/// If no proof is found, the number of regions may be too small rather than the range too wide.
 ///
 /// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 /// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.
@@ -104,17 +103,17 @@ pub struct IterativeLearningConvergence {
     pub plants: PlantRange,
     /// The cycle times of the certificate \[s\].
     pub cycle: Interval<f64>,
-    /// Upper bound on |H| from the cycle's own frequency on, with a P from zero on; below that
-    /// frequency |H| is less than one.
+    /// Upper bound on |H| from the cycle's own frequency upwards (with a P, from zero upwards);
+    /// below that frequency |H| is less than one.
     pub factor: f64,
     /// Number of regions of plants, cycle times and frequencies in the proof.
     pub boxes: u32,
 }
 
 impl IterativeLearningConvergence {
-    /// Proves convergence with `|H| <= factor` from the cycle's own frequency on.
+    /// Proves convergence with `|H| <= factor` from the cycle's own frequency upwards.
     ///
-    /// `cells` is the length of the learning's buffers, `cycle` the range of the cycle time
+    /// `cells` is the length of the learning buffers, and `cycle` is the range of the cycle time
     /// \[s\].
     ///
     /// # Errors

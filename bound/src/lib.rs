@@ -17,10 +17,10 @@
 //! - [`IterativeLearningConvergence`] certifies that a PI with
 //!   [`IterativeLearning`](bowden::control::IterativeLearning) converges.
 //!
-//! Each certificate of the table is made from an [`Adaptive`](bowden::control::Adaptive) law and
-//! a [`Plant`], the known ranges of the plant. The constructors check what these two types can
-//! check. [`Certificate::assumptions`] lists the assumptions that the user must check. The
-//! documentation of each type states them in full.
+//! Each certificate in the table is made from an [`Adaptive`](bowden::control::Adaptive) law and a
+//! [`Plant`], the known ranges of the plant. The constructors check what these two types can check.
+//! [`Certificate::assumptions`] lists the assumptions that the user must check. The documentation
+//! of each type states them in full.
 //!
 //! **The bound of Theorem 1 is correct but vacuous.** With Table 2, alpha = 0.5 and Delta = 7 N·m
 //! the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates are useful.

@@ -6,7 +6,7 @@ use super::zeros::{excluded, Closed};
 use bowden::control::{DerivativeSource, DisturbanceObserver, Pid, PidSettings};
 use bowden::{Error, Real};
 
-/// A P or PI with a disturbance observer that is stable with every plant of a range.
+/// A P or PI with a disturbance observer that is stable for every plant of a range.
 ///
 /// With `C = k_p + k_i/s`, `Q = 1/(tau·s + 1)²` and the observer's latency as `1/(L·s + 1)`,
 /// the loop is stable if no zero of
@@ -26,7 +26,7 @@ use bowden::{Error, Real};
 /// along this whole path. A zero could therefore cross only the imaginary axis, below r. There,
 /// intervals that are rounded outwards and bisected show that F is not zero (zero exclusion). ∎
 ///
-/// For single plants the proved limit and the true stability limit agree within a few per cent
+/// For single plants the proved limit and the true stability limit agree to within a few per cent
 /// (test `bound`). Near the limit the proof may fail for a stable loop. It may also fail if the
 /// path leads through unstable plants.
 ///
@@ -35,7 +35,7 @@ use bowden::{Error, Real};
 /// - continuous time: the sample time is much shorter than tau and 1/wn, and the observer's
 ///   latency is at least one sample;
 /// - the lags of drive and sensor act as a delay;
-/// - neither the limit of the command nor the limit of the observer is active;
+/// - neither the command's limit nor the observer's limit is active;
 /// - friction and load are bounded disturbances;
 /// - libm's sine and cosine have an error of less than 1e-12.
 ///
@@ -92,7 +92,7 @@ struct Loop {
 }
 
 impl ObserverStability {
-    /// Proves that the loop is stable with every plant of the range.
+    /// Proves that the loop is stable for every plant of the range.
     ///
     /// # Errors
     /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the range.

@@ -109,7 +109,7 @@ fn g_kappa<T: Real>(gain: T, squared: T, g: T) -> T {
     }
 }
 
-/// Greatest `|w| = |(g-1)·reference + (g·theta_hat - theta)'x - D|` \[N·m\].
+/// Largest `|w| = |(g-1)·reference + (g·theta_hat - theta)'x - D|` \[N·m\].
 pub(super) fn push<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,

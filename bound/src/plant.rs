@@ -9,9 +9,9 @@ use bowden::{Error, Real};
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Interval<T> {
-    /// Least value \[unit of the constant\].
+    /// Lower end \[unit of the constant\].
     pub low: T,
-    /// Greatest value \[unit of the constant\].
+    /// Upper end \[unit of the constant\].
     pub high: T,
 }
 
@@ -40,13 +40,13 @@ impl<T: Real> Interval<T> {
         }
     }
 
-    /// Greatest magnitude in the interval.
+    /// Largest magnitude in the interval.
     #[must_use]
     pub fn magnitude(&self) -> T {
         self.max_distance_from(T::zero())
     }
 
-    /// Greatest distance from `point` in the interval.
+    /// Largest distance from `point` in the interval.
     #[must_use]
     pub fn max_distance_from(&self, point: T) -> T {
         let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
@@ -66,9 +66,9 @@ impl<T: Real> Interval<T> {
 pub struct Known<T> {
     /// Interval of theta_i \[N·m/unit of the regressor\].
     pub theta: Interval<T>,
-    /// Greatest `|x_i|` \[unit of the regressor\]; only peak certificates read it.
+    /// Largest `|x_i|` \[unit of the regressor\]; only peak certificates read it.
     pub magnitude: T,
-    /// Greatest rate of x_i \[unit/s\]; only sampled certificates read it.
+    /// Largest rate of x_i \[unit/s\]; only sampled certificates read it.
     pub rate: T,
 }
 
@@ -102,9 +102,9 @@ pub struct Plant<T, const N: usize> {
     pub delta_rate: T,
     /// Coefficients and regressors.
     pub regressors: [Known<T>; N],
-    /// Greatest `|y_r|` \[N·m\]; only peak certificates read it.
+    /// Largest `|y_r|` \[N·m\]; only peak certificates read it.
     pub reference: T,
-    /// Greatest `|y_r'|` \[N·m/s\]; only sampled certificates read it.
+    /// Largest `|y_r'|` \[N·m/s\]; only sampled certificates read it.
     pub reference_rate: T,
 }
 

@@ -16,10 +16,10 @@ const NARROWINGS: u32 = 90;
 /// `s = e + lambda·z` gives ∫s² >= ∫e² if z starts at zero. So
 /// `rms(e) <= sqrt((phi_a + V(0)/T)/(k·lambda))`.
 ///
-/// delta_hat may have a target below Delta. The difference is `c = Delta - target`, and
-/// `rms(s) <= (c + sqrt(c² + 4·k·(phi_a + V(0)/T)/lambda))/(2·k)`. Any target gives a valid
-/// bound; the least bound is used. Leakage to a prior p0 replaces p* by `p* - p0`. A switching
-/// leakage whose bound contains the true value adds nothing.
+/// delta_hat may have a target below Delta. The difference is `c = Delta - target`, and `rms(s) <=
+/// (c + sqrt(c² + 4·k·(phi_a + V(0)/T)/lambda))/(2·k)`. Any target gives a valid bound; the
+/// smallest bound is used. Leakage to a prior p0 replaces p* by `p* - p0`. A switching leakage
+/// whose bound contains the true value adds nothing.
 ///
 /// Assumptions:
 /// - the law as published in continuous time with e' known;

@@ -14,7 +14,7 @@ use bowden::{Error, Real};
 ///
 /// - `phi = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + (h/2)·R`, with R the
 ///   second order in the box of [`PeakSampled`];
-/// - `c = Delta - target`; any target is valid, and the least bound is used.
+/// - `c = Delta - target`; any target is valid, and the smallest bound is used.
 ///
 /// The mean of `|s|` is at most `rms(s)`, so
 /// `k·lambda·rms(s)² <= (lambda·c + Xi)·rms(s) + phi + V(0)/T`: the best split of `k·lambda·s²`

@@ -55,17 +55,17 @@ use bowden::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakSampled<T> {
-    /// W \[N·m\]: greatest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
+    /// W \[N·m\]: largest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
     pub w: T,
-    /// Xi \[N·m/s\]: greatest rate of `D + theta'x`.
+    /// Xi \[N·m/s\]: largest rate of `D + theta'x`.
     pub xi: T,
-    /// Least and greatest g = alpha·beta_hat.
+    /// Minimum and maximum of g = alpha·beta_hat.
     pub g: Interval<T>,
     /// S \[N·m\]: the box is `|s| <= S`, `|z| <= S/lambda`.
     pub s: T,
     /// 2·S \[N·m\]: `|e|` at every sample.
     pub bound: T,
-    /// Greatest `|u|` in the box \[command unit\]; the limits must allow it.
+    /// Largest `|u|` in the box \[command unit\]; the limits must allow it.
     pub command: T,
 }
 

@@ -19,7 +19,7 @@ use bowden::{Error, Real};
 ///
 /// and `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =
 /// Delta and theta the slowest leakage this is (34)-(38), up to `(1 + lambda)`. For Table 2 the
-/// greatest term is the leakage of beta_hat, which no choice reduces.
+/// largest term is the leakage of beta_hat, which no choice reduces.
 ///
 /// Assumptions: those of [`Theorem1`](super::Theorem1).
 ///
@@ -53,7 +53,7 @@ struct Problem<'a, T, const N: usize> {
     /// Without its true value, which is the target.
     delta: Option<Adapting<T>>,
     targets: Interval<T>,
-    /// Least leakage of an estimate in V \[1/s\].
+    /// Smallest leakage of an estimate in V \[1/s\].
     slowest: T,
 }
 
@@ -98,7 +98,7 @@ impl<T: Real> Tightest<T> {
         Ok(best)
     }
 
-    /// The greatest term of phi, and its share of phi.
+    /// The largest term of phi, and its share of phi.
     #[must_use]
     pub fn dominant_term(&self) -> (&'static str, T) {
         let mut sum = T::zero();

@@ -125,7 +125,7 @@ pub(super) fn sum<T: Real, const N: usize>(
     Ok(sum)
 }
 
-/// Least and greatest `g = alpha·beta_hat`.
+/// Minimum and maximum of `g = alpha·beta_hat`.
 ///
 /// # Errors
 /// [`Error::Inadmissible`] unless g stays above zero and delta_hat not below.
@@ -147,7 +147,7 @@ pub(super) fn loop_gain<T: Real, const N: usize>(
     })
 }
 
-/// Greatest `sum |g·theta_hat_i - theta_i|·|x_i|` for a loop gain in `g` \[N·m\].
+/// Largest `sum |g·theta_hat_i - theta_i|·|x_i|` for a loop gain in `g` \[N·m\].
 pub(super) fn mismatch<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,

@@ -16,9 +16,9 @@ pub(super) fn held_by(estimator: &Estimator<f32>) -> Compensated<f32> {
     sum
 }
 
-/// K4, K5. An estimate stays in its box, so beta_hat above its least value.
+/// K4, K5. An estimate stays within its bounds, so beta_hat stays at or above its lower bound.
 ///
-/// Assumes: nothing of gains, leakage, prior, dt or what drives it; an estimate in its box.
+/// Assumes: nothing about gains, leakage, prior, dt or input; an estimate within its bounds.
 #[kani::proof]
 fn estimate_in_its_box() {
     let estimator = estimator(leakage());
@@ -37,9 +37,10 @@ fn may_be_lost<T: Real>(a: T, b: T, sum: T, lost: T) -> bool {
     (sum.is_finite() || !lost.is_finite()) && is_small
 }
 
-/// K1. What a sum loses to rounding is no number where the sum is none, so that a step which
-/// looks at it sees both; of numbers within ±1e6 it is within ±1e8. (A sum that is finite may
-/// lose no number: MAX and one and a half of its last units do.)
+/// K1. If a sum is not finite, neither is its rounding error, so a step that checks the rounding
+/// error detects both; for numbers within ±1e6 the rounding error is within ±1e8. (A finite sum may
+/// have a rounding error that is not finite: for example, MAX plus one and a half of its last
+/// units.)
 #[kani::proof]
 fn a_sum_and_what_it_lost() {
     let (a, b) = (kani::any::<f32>(), kani::any());
@@ -83,10 +84,10 @@ fn any_rate_at<T: Real>(_: &Leakage<T>, _: T) -> T {
     T::from_f64(within(0.0, 1e4).into())
 }
 
-/// K9. The rate of a leakage, constant or switching, lies between zero and its greatest; a
-/// switching one is the same on both sides of the prior.
+/// K9. The rate of a leakage, constant or switching, lies between zero and its maximum; a switching
+/// rate is the same on both sides of the prior.
 ///
-/// Assumes: a rate not negative, a bound above zero, both finite; any finite distance.
+/// Assumes: a rate that is not negative and a bound above zero, both finite; any finite distance.
 #[kani::proof]
 fn a_leakage_rate_is_at_most_its_rate() {
     let leakage = leakage();
@@ -100,11 +101,11 @@ fn a_leakage_rate_is_at_most_its_rate() {
     assert!(0.0 <= rate && rate <= most);
 }
 
-/// K9. Without excitation the increment of a leak lies between nothing and the way to the
+/// K9. Without excitation the increment of a leakage lies between zero and the distance to the
 /// prior.
 ///
-/// Assumes: dt = 1/1024 s; at most 2000 from the prior; the rate within \[0, 1e4\]/s, as
-/// proved by a_leakage_rate_is_at_most_its_rate for constant and switching leakage.
+/// Assumes: dt = 1/1024 s; at most 2000 from the prior; the rate within \[0, 1e4\]/s, as proved by
+/// a_leakage_rate_is_at_most_its_rate for constant and switching leakage.
 #[kani::proof]
 #[kani::stub(Leakage::rate_at, any_rate_at)]
 fn leak_moves_towards_the_prior() {
@@ -145,13 +146,12 @@ fn leaked(prior: f32, before: &Compensated<f32>) -> Compensated<f32> {
     after
 }
 
-/// K9. Without excitation a leak to zero moves an estimate, what rounding owes it included,
-/// towards zero and past it by no more than rounding owed before; rounding then owes at most
-/// half an ulp again.
+/// K9. Without excitation a leakage to zero moves an estimate, including its carry, towards zero
+/// and past zero by at most the previous carry; the new carry is at most half an ulp again.
 ///
-/// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching, |estimate| ≤ 1000,
-/// owed any carry that the sum rounds away; the increment as proved by
-/// leak_moves_towards_the_prior, what a sum loses to rounding less than rounding sees.
+/// Assumes: dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching, |estimate| ≤ 1000, any
+/// carry that vanishes when it is added to the sum; the increment as proved by
+/// leak_moves_towards_the_prior; the rounding error of a sum below its resolution.
 #[kani::proof]
 #[kani::stub(Estimator::increment, any_leak)]
 #[kani::stub(two_sum, any_two_sum)]
@@ -167,13 +167,13 @@ fn leak_to_zero() {
     }
 }
 
-/// K9. Without excitation a leak to a prior moves an estimate, what rounding owes it included,
-/// towards the prior and past it by no more than two ulps of the larger one; rounding then
-/// owes at most half an ulp again.
+/// K9. Without excitation a leakage to a prior moves an estimate, including its carry, towards the
+/// prior and past it by at most two ulps of the larger of the two; the new carry is at most half an
+/// ulp again.
 ///
 /// Assumes: a prior of 1, dt = 1/1024 s, leakage rate ∈ [0, 1e4]/s, constant or switching,
-/// |estimate| ≤ 1000, owed any carry that the sum rounds away; the increment as proved by
-/// leak_moves_towards_the_prior, what a sum loses to rounding less than rounding sees.
+/// |estimate| ≤ 1000, any carry that vanishes when it is added to the sum; the increment as proved
+/// by leak_moves_towards_the_prior; the rounding error of a sum below its resolution.
 #[kani::proof]
 #[kani::stub(Estimator::increment, any_leak)]
 #[kani::stub(two_sum, any_two_sum)]

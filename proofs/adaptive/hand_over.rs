@@ -56,11 +56,12 @@ fn bumpless_transfer(form: Form<f32>) {
     assert!(kept && state.error_rate == DerivativeState::new());
 }
 
-/// K10. Other settings take a running law over, lag form, two regressors: whatever the sample,
-/// the command that is out stays, from which a slew rate goes on, and the state is valid.
+/// K10. Bumpless transfer of a running law to other settings, first-order form, two regressors: for
+/// any sample the applied command is kept, a slew-rate limit continues from it, and the state is
+/// valid.
 ///
-/// Assumes: nothing of gains or sample; a state of any finite numbers, any z for the one that
-/// is searched.
+/// Assumes: nothing about gains or sample; a state with any finite numbers; any z as the result of
+/// the search.
 #[kani::proof]
 #[kani::unwind(3)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]
@@ -68,9 +69,9 @@ fn hand_over() {
     bumpless_transfer(lag());
 }
 
-/// K10. The same of the literal form, whose rate of the error starts again at zero.
+/// K10. The same for the form as published, whose rate of the error restarts at zero.
 ///
-/// Assumes: as hand_over.
+/// Assumes: the same as hand_over.
 #[kani::proof]
 #[kani::unwind(3)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]
@@ -90,10 +91,10 @@ fn resume(form: Form<f32>) {
     assert!(a_start_keeps_the_command(&law, output, &input));
 }
 
-/// K10. A law that starts from an output, lag form, two regressors: whatever output and sample,
-/// the command is that output within the range, and the state is valid.
+/// K10. A law that resumes from an output, first-order form, two regressors: for any output and
+/// sample the command is that output within the range, and the state is valid.
 ///
-/// Assumes: nothing of gains, output or sample; any z for the one that is searched.
+/// Assumes: nothing about gains, output or sample; any z as the result of the search.
 #[kani::proof]
 #[kani::unwind(3)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]
@@ -101,9 +102,9 @@ fn resume_lag() {
     resume(lag());
 }
 
-/// K10. The same of the literal form.
+/// K10. The same for the form as published.
 ///
-/// Assumes: as resume_lag.
+/// Assumes: the same as resume_lag.
 #[kani::proof]
 #[kani::unwind(3)]
 #[kani::stub(Adaptive::z_that_gives, any_z)]

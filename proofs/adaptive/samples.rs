@@ -185,13 +185,14 @@ fn advance_any_sample(form: Form<f32>) {
     assert!(kept);
 }
 
-/// K1, K4, K5. Lag form, two regressors: a command that the law gives is of a sample whose numbers
-/// can be used, within the limits and the slew rate, and leaves a valid state, the estimates as
-/// they were where they are frozen; where it gives none, nothing has moved.
+/// K1, K4, K5. First-order form, two regressors: if the law gives a command, the numbers of the
+/// sample are usable, the command is within the limits and the slew-rate limit, and the state stays
+/// valid, with unchanged estimates if they are frozen. If the law gives no command, nothing
+/// changes.
 ///
-/// Assumes: nothing of gains, sample or valid state, whatever its lag; the update of an estimate
-/// as proved by estimate_in_its_box, what a sum loses as by a_sum_and_what_it_lost, the limits
-/// as by slew_limit_any_rate, any s and any lag after.
+/// Assumes: nothing about gains, sample or valid state, for any lag; the update of an estimate as
+/// proved by estimate_in_its_box, the rounding error of a sum as proved by a_sum_and_what_it_lost,
+/// the limits as proved by slew_limit_any_rate; any s and any lag afterwards.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(Compensated::plus, any_plus)]
@@ -207,9 +208,9 @@ fn lag_advance() {
     advance_any_sample(form);
 }
 
-/// K1, K5. The literal form as the lag form above.
+/// K1, K5. The same as lag_advance for the form as published.
 ///
-/// Assumes: as lag_advance; the filtered rate as proved by a_command_has_a_rate.
+/// Assumes: the same as lag_advance; the filtered rate as proved by a_command_has_a_rate.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(Compensated::plus, any_plus)]
@@ -293,11 +294,12 @@ fn any_sample<const N: usize>(form: Form<f32>) {
     assert!(kept);
 }
 
-/// K1, K4, K5. Lag form, two regressors: for any sample the command is finite, within its
-/// limits and its slew rate, the state stays valid; a bad sample leaves the state, and the
-/// command or the safe one is out; none is good with dt ≤ 0 or a number that is not finite.
+/// K1, K4, K5. First-order form, two regressors: for any sample the command is finite and within
+/// its limits and its slew-rate limit, and the state stays valid. A bad sample leaves the state
+/// unchanged, and either the last command or the safe command is applied. No sample counts as good
+/// if dt ≤ 0 or a number is not finite.
 ///
-/// Assumes: nothing of gains, sample or valid state; a command and its state as proved by
+/// Assumes: nothing about gains, sample or valid state; a command and its state as proved by
 /// lag_advance.
 #[kani::proof]
 #[kani::unwind(5)]
@@ -312,8 +314,8 @@ fn lag_any_sample() {
     any_sample::<2>(form);
 }
 
-/// K1. Literal form, two regressors: where the error's rate is not finite, the virtual
-/// command is not either, and the step refuses the sample.
+/// K1. Form as published, two regressors: if the error's rate is not finite, the virtual command is
+/// not finite either, and the step refuses the sample.
 #[kani::proof]
 #[kani::unwind(5)]
 fn a_bad_rate_shows() {
@@ -331,12 +333,12 @@ fn a_bad_rate_shows() {
     assert!(terms.error_rate.is_finite() || !command.is_finite());
 }
 
-/// K1. Literal form, two regressors: where the law's command is finite, so is the filtered rate
-/// that stays.
+/// K1. Form as published, two regressors: if the law's command is finite, so is the stored filtered
+/// rate.
 ///
-/// Assumes: nothing of gains; a sample whose error is finite, as the step demands before; a valid
-/// state, any filtered rate, the virtual command as by a_bad_rate_shows, beta_hat above zero as
-/// its box demands.
+/// Assumes: nothing about gains; a sample with a finite error, as the step has checked; a valid
+/// state, any filtered rate, the virtual command as proved by a_bad_rate_shows, beta_hat above zero
+/// as its bounds require.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(libm::tanhf, stubs::tanhf)]
@@ -354,10 +356,11 @@ fn a_command_has_a_rate() {
     assert!(!of.terms.unlimited.is_finite() || of.error_rate.is_finite());
 }
 
-/// K1, K5. The literal form as lag_any_sample.
+/// K1, K5. The same as lag_any_sample for the form as published.
 ///
-/// Assumes: nothing of gains, sample or valid state; a command and its state as proved by
-/// literal_advance; for where a return starts any z of its box, as by hand_over_literal.
+/// Assumes: nothing about gains, sample or valid state; a command and its state as proved by
+/// literal_advance; for the start of a return, any z within its bounds, as proved by
+/// hand_over_literal.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(Adaptive::advance, any_advance)]
@@ -389,11 +392,11 @@ fn from_any_state(form: Form<f32>) {
     assert!(kept);
 }
 
-/// K15. Lag form, two regressors, from any state of whatever bits: the command is finite and
-/// within the limits, and a safe command that is latched stays out.
+/// K15. First-order form, two regressors, from any state with any bits: the command is finite and
+/// within the limits, and a latched safe command stays applied.
 ///
-/// Assumes: nothing of gains, sample or state; the limits as by slew_limit_any_rate, any s and
-/// any lag, any estimates.
+/// Assumes: nothing about gains, sample or state; the limits as proved by slew_limit_any_rate, any
+/// s and any lag, any estimates.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(Compensated::plus, any_plus)]
@@ -408,9 +411,10 @@ fn lag_from_any_state() {
     from_any_state(form);
 }
 
-/// K15. The same of the literal form.
+/// K15. The same for the form as published.
 ///
-/// Assumes: as lag_from_any_state; any filtered rate, any z for the one that a return searches.
+/// Assumes: the same as lag_from_any_state; any filtered rate, any z as the result of the search of
+/// a return.
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(Compensated::plus, any_plus)]

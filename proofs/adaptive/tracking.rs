@@ -39,12 +39,12 @@ fn never<T: Real, const N: usize>(
     }
 }
 
-/// K2. The controller's step on a static plant with a sample of delay, as firmware runs it:
-/// |s| ≤ 0.43 N·m and |z| ≤ 0.43/lambda hold after it, and no sample is refused. One step, not
-/// an induction: rounding may owe something to z after it.
+/// K2. The controller's step on a static plant with one sample of delay, as firmware runs it: |s| ≤
+/// 0.43 N·m and |z| ≤ 0.43/lambda hold after the step, and no sample is refused. One step, not an
+/// induction: afterwards the carry of z may not be zero.
 ///
-/// Assumes: Table 2 at 1 kHz, g = 1, no regressor, delta_hat = 0, reference 0, a disturbance
-/// at rest of up to 8 N·m, nothing owed by rounding; what a sum loses as by
+/// Assumes: Table 2 at 1 kHz, g = 1, no regressor, delta_hat = 0, reference 0, a constant
+/// disturbance of up to 8 N·m, carries of zero; the rounding error of a sum as proved by
 /// a_sum_and_what_it_lost.
 #[kani::proof]
 #[kani::unwind(5)]
@@ -82,11 +82,11 @@ fn next_reference<T: Real, const N: usize>(
     input.next_reference
 }
 
-/// K12. The lag's command lies between the one before and its target, but for the rounding
-/// of one subtraction and one sum.
+/// K12. The command of the lag lies between the previous command and its target, except for the
+/// rounding of one subtraction and one sum.
 ///
-/// Assumes: h·lambda = 0.008, beta_hat = 1, a command before within ±1000, any virtual
-/// command. (A claim about one step.)
+/// Assumes: h·lambda = 0.008, beta_hat = 1, a previous command within ±1000, any virtual command.
+/// (A claim about one step.)
 #[kani::proof]
 #[kani::unwind(5)]
 #[kani::stub(Adaptive::virtual_command, next_reference)]

@@ -4,10 +4,9 @@
 //! tau_i = inverse transmission(desired − Σ gain·regressor, eta)
 //! ```
 //!
-//! The feed-forward supplements a PI or an adaptive law. It allows a comparison between
-//! identification on the bench and online adaptation. The inverse is exact along the path of the
-//! hysteresis, from equations (5)-(7). The effects are evaluated at the given motions and
-//! subtracted first.
+//! The feed-forward supplements a PI or an adaptive law, and allows identification on the bench to
+//! be compared with online adaptation. The inverse is exact along the path of the hysteresis, from
+//! equations (5)-(7). The effects are evaluated at the given motions and subtracted first.
 //!
 //! The model runs in open loop, so it drifts away from the plant by the model error. Use the
 //! reference as its input, not the measured output: a noisy desired output destroys the hysteresis
@@ -70,7 +69,7 @@ pub struct CompensatorOutput<T> {
     pub command: T,
     /// A good sample, or the fault; a fault holds the last good command.
     pub status: Status,
-    /// Share of the effects in the output \[output unit\], zero on a bad sample.
+    /// Contribution of the effects to the output \[output unit\], zero on a bad sample.
     pub effects: T,
     /// The model's hysteresis state, within ±1.
     pub eta: T,
@@ -102,9 +101,9 @@ pub struct CompensatorOutput<T> {
 pub struct BenchRange<T> {
     /// The source; for [`Source::Input`] the position is the load's range in torque mode.
     pub source: Source,
-    /// Least position, velocity and acceleration.
+    /// Minimum of position, velocity and acceleration.
     pub low: Motion<T>,
-    /// Greatest position, velocity and acceleration.
+    /// Maximum of position, velocity and acceleration.
     pub high: Motion<T>,
 }
 
@@ -133,7 +132,8 @@ impl<T: Real> BenchRange<T> {
     }
 }
 
-/// The model as a feed-forward: the input for which the model gives the desired output.
+/// The inverse of a model as a feed-forward: the input for which the model gives the desired
+/// output.
 ///
 /// Two rules apply to effects that depend on the result:
 /// - An effect that reads the transmission's input or the load uses the values of the sample,
@@ -141,7 +141,7 @@ impl<T: Real> BenchRange<T> {
 ///   values is below the cable's gain.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
-/// Without such effects the model's output after `command` is `desired`, except for rounding.
+/// Without such effects the model's output for `command` is `desired`, except for rounding.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
@@ -236,8 +236,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { longest_dt, ..self })
     }
 
-    /// The same compensator with a [`Play`] on the desired torque of the cable. The half-width
-    /// \[output unit\] is zero or more; zero means no play.
+    /// The same compensator with a [`Play`] on the desired torque of the cable. Its half-width
+    /// \[output unit\] is zero (no play) or more.
     ///
     /// After each reversal the inverse is steep. Its steepness grows with kappa_eta up to the bound
     /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
@@ -258,8 +258,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// The same compensator with motions clamped to the bench range of each source.
     ///
-    /// The clamp prevents extrapolation of a fitted curve. Sources without a range are not clamped.
-    /// If one source has two ranges, the later one applies.
+    /// The clamp prevents extrapolation beyond the fitted data. Sources without a range are not
+    /// clamped. If a source has two ranges, the later one applies.
     ///
     /// # Errors
     /// [`Error::NonFinite`]; [`Error::Inadmissible`] if `low > high` or if no term reads the

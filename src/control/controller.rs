@@ -1,4 +1,4 @@
-//! The common interface of the controllers, so one loop serves all of them.
+//! The common interface of the controllers: one loop can run any of them.
 
 use super::{
     Adaptive, AdaptiveInput, AdaptiveState, Applied, Limits, Pid, PidInput, PidState, Status,
@@ -12,7 +12,7 @@ use crate::Real;
 pub struct Output<T> {
     /// Command for the drive \[command unit\]: finite and within the limits.
     pub command: T,
-    /// Result of the sample: good, or the fault and the substitute command.
+    /// Status of the sample: good, or the fault and the substitute command.
     pub status: Status,
 }
 

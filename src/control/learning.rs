@@ -4,11 +4,11 @@
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal phase, and e is the mean of `reference − measured`
-//! over a cell. The feed-forward interpolates linearly between the learned values at the
-//! middles of the cells. A cell learns `lead + half_width` cells after its end, when all
-//! required errors are known. The cost is therefore spread over the cycle, and a gait or a
-//! wheel needs no pause between cycles.
+//! A cycle is divided into cells of equal phase; e is the mean of `reference − measured` over a
+//! cell. The feed-forward interpolates linearly between the learned values at the middles of the
+//! cells. A cell learns `lead + half_width` cells after its end, when all required errors are
+//! known. The cost is therefore spread over the cycle, and a gait or a wheel needs no pause between
+//! cycles.
 //!
 //! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has
 //! zero phase, and its gain lies between 0 and 1 for every tone (Fejér's kernel):
@@ -24,8 +24,8 @@
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison
-//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015. There,
-//! a proportional law with such a feed-forward had the smallest error of nine methods.
+//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015. In the
+//! latter, a proportional law with such a feed-forward had the smallest error of nine methods.
 
 use super::status::unless_finite;
 use super::{Fault, Status};
@@ -54,8 +54,8 @@ const MOST_SAMPLES: f64 = 65_536.0;
 ///
 /// The learned values are stored in two buffers of the same length, one number per cell: arrays, or
 /// borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Use about ten cells per second
-/// for each hertz of the filter's corner frequency, but fewer cells than there are samples in the
-/// shortest cycle.
+/// for each hertz of the filter's corner frequency, but fewer cells than samples in the shortest
+/// cycle.
 ///
 /// ```
 /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
@@ -156,9 +156,9 @@ pub struct IterativeLearningInput<T> {
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the law learns from this sample: not if a limit has cut the command, the safe
-    /// command is applied, or the task is different (standing, or a held joint). After a cell in
-    /// which it is mostly `false`, the law also ignores the errors of the next `lead` cells.
+    /// Whether the law learns from this sample. Set `false` if a limit has cut the command, the
+    /// safe command is applied, or the task is different (standing, or a held joint). After a cell
+    /// in which it is mostly `false`, the law also ignores the errors of the next `lead` cells.
     pub learns: bool,
 }
 
@@ -189,12 +189,13 @@ pub struct IterativeLearningOutput<T> {
 }
 
 impl<T: Real> IterativeLearning<T> {
-    /// Most cells of a cycle.
+    /// Maximum number of cells in a cycle.
     pub const MOST_CELLS: usize = u16::MAX as usize;
 
-    /// Learning without forgetting. `gain` of the error \[command unit/output unit\] is not zero and
-    /// has the sign of the plant's gain; `limit > 0` bounds the learned values \[command unit\];
-    /// `lead` cells lie between a command and its effect; `half_width` is the triangle's \[cells\].
+    /// Learning without forgetting. `gain` of the error \[command unit/output unit\] is not zero
+    /// and has the sign of the plant's gain; `limit > 0` bounds the learned values \[command
+    /// unit\]; `lead` is the number of cells between a command and its effect; `half_width` is that
+    /// of the triangle \[cells\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
@@ -202,9 +203,10 @@ impl<T: Real> IterativeLearning<T> {
         learning!(gain, limit, lead, half_width, T::ZERO)
     }
 
-    /// The same learning, but in each cycle a share (0 to 1) of each learned value is forgotten.
+    /// The same learning with forgetting: each cycle removes this share (0 to 1) of each learned
+    /// value.
     ///
-    /// An error then remains, and values that do not repeat decay.
+    /// With forgetting, values that do not repeat decay, and an error remains.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
@@ -219,7 +221,7 @@ impl<T: Real> IterativeLearning<T> {
         self.gain
     }
 
-    /// Greatest magnitude of the learned values \[command unit\].
+    /// Largest magnitude of the learned values \[command unit\].
     #[inline]
     #[must_use]
     pub const fn limit(&self) -> T {
@@ -247,13 +249,13 @@ impl<T: Real> IterativeLearning<T> {
         self.forgetting
     }
 
-    /// Fewest cells of a cycle: `lead + 2·half_width + 9`.
+    /// Minimum number of cells in a cycle: `lead + 2·half_width + 9`.
     #[must_use]
     pub const fn fewest_cells(&self) -> usize {
         self.lead as usize + 2 * self.half_width as usize + 2 * MOST_PASSED + 1
     }
 
-    /// Checks a number of cells.
+    /// Checks the number of cells.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] with fewer than [`fewest_cells`](Self::fewest_cells);
@@ -328,11 +330,11 @@ impl<T: Real> IterativeLearning<T> {
     ///   and the law does not learn from the sample.
     /// - A jump is more than four cells forward or back in one sample. After a jump the cell before
     ///   it does not learn. The `lead` cells before the new cell do not learn either: they were
-    ///   skipped, so the errors do not belong to them. A step that ends early at heel contact is
-    ///   such a jump; the last `lead + half_width` cells before it do not learn.
+    ///   skipped, so the errors do not belong to them. A walking step that ends early at heel
+    ///   contact is such a jump; the last `lead + half_width` cells before it do not learn.
     /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
-    ///   jitter the phase passes cells several times, and the law learns each time: filter the
-    ///   phase, or set `learns` to `false`.
+    ///   jitter the phase passes cells several times, and the law learns each time; in that case
+    ///   filter the phase, or set `learns` to `false`.
     /// - The longest step passes four cells, and sums over `2·half_width + 1` cells for each.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(

@@ -6,7 +6,7 @@ use crate::{Error, Real};
 
 /// Range \[command unit\] and slew-rate limit \[command unit/s\] of a command.
 ///
-/// In a stored form a missing `slew` means no slew-rate limit. The range may be asymmetric.
+/// In a stored form a missing `slew` means no slew-rate limit. The range need not be symmetric.
 /// [`Limits::unlimited`] is the range of the float itself, so a command is always finite.
 ///
 /// ```
@@ -98,9 +98,9 @@ impl<T: Real> Limits<T> {
     /// may oscillate. Here noise is the largest change of the measured output between samples, and
     /// rate is the number of samples per second. Choose a higher slew-rate limit or a smaller gain.
     ///
-    /// The command is a float. In `f32` the distance between neighbouring floats is about 1.2e-7 of
-    /// the command. If `slew·dt` is below this distance, a sample moves the command by one such
-    /// distance or not at all.
+    /// The command is a float, and in `f32` the distance between neighbouring floats is about
+    /// 1.2e-7 of the command. If `slew·dt` is below this distance, a sample moves the command by
+    /// one such distance or not at all.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
@@ -108,13 +108,13 @@ impl<T: Real> Limits<T> {
         slewed!(self, slew, T::ZERO)
     }
 
-    /// Least command \[command unit\].
+    /// Lower limit of the command \[command unit\].
     #[must_use]
     pub const fn low(&self) -> T {
         self.low
     }
 
-    /// Greatest command \[command unit\].
+    /// Upper limit of the command \[command unit\].
     #[must_use]
     pub const fn high(&self) -> T {
         self.high
@@ -134,9 +134,9 @@ impl<T: Real> Limits<T> {
 
     /// The command nearest to `wanted` that is reachable from `last` within `dt` \[s\].
     ///
-    /// The result always lies within the range, even if `last` does not. It lies within
-    /// `slew·dt` of `last` if the range permits. NaN in `wanted` or in a required `last` stays
-    /// NaN; controllers reject such a number earlier.
+    /// The result always lies within the range, even if `last` does not. It lies within `slew·dt`
+    /// of `last` if the range permits. NaN in `wanted`, or in `last` if it is needed, stays NaN;
+    /// controllers reject such a number earlier.
     #[inline]
     #[must_use]
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {

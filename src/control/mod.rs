@@ -1,8 +1,9 @@
 //! Torque controllers that reject bad samples.
 //!
-//! Configuration and state are separate types. `try_new` checks a configuration once; it never
-//! changes afterwards and can be stored in flash. A state is `Copy` and can be saved and restored.
-//! Call `step` once per sample with the time since the last call; this time may vary.
+//! Configuration and state are separate types. `try_new` checks a configuration once; the
+//! configuration never changes afterwards and can be stored in flash. A state is `Copy` and can be
+//! saved and restored. Call `step` once per sample with the time since the last call; this time may
+//! vary.
 //!
 //! **Bad samples.** A sample is bad if
 //! - a measurement, the reference or `dt` is NaN or infinite, or
@@ -34,7 +35,7 @@
 //! | [`IterativeLearning`] | feed-forward learned from the error of earlier cycles | |
 //! | [`Relay`] | relay experiment that measures ultimate gain and period, for PI gains | |
 //!
-//! [`Controller`] is the common interface of the first two. [`law`] has the equations of the
+//! [`Controller`] is the common interface of the first two rows. [`law`] contains the equations of the
 //! adaptive law, one function each.
 
 mod adaptive;

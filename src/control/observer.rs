@@ -12,7 +12,7 @@
 //! limit is active.
 //!
 //! The observer needs no friction model. It needs alpha, wn and zeta, from the drive's
-//! specification or from a bench record. The adaptive law needs none of these three.
+//! specification or from a bench record; the adaptive law needs none of these.
 //!
 //! Connect the observer to a controller's `feed_forward`; its own limit bounds it for any
 //! input. Combine it with the nominal plant's own inverse along the reference
@@ -220,7 +220,7 @@ impl<T: Real> DisturbanceObserver<T> {
         self.time_constant
     }
 
-    /// Greatest magnitude of the estimate \[command unit\].
+    /// Largest magnitude of the estimate \[command unit\].
     #[inline]
     #[must_use]
     pub const fn limit(&self) -> T {
@@ -245,9 +245,9 @@ impl<T: Real> DisturbanceObserver<T> {
     ///
     /// Call this method at every sample, before the controller. A bad sample holds the estimate,
     /// and the next good sample includes its time. A sample is bad if `dt` is not positive or too
-    /// long, or if the command or the output is not finite. If a bad `dt` makes the time unknown,
-    /// that time counts as equal to the next `dt`. For any state the estimate is finite and within
-    /// ±limit.
+    /// long, or if the command or the output is not finite. If the `dt` of a bad sample is
+    /// unusable, its time counts as equal to the next `dt`. For any state the estimate is finite
+    /// and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
         let status = if self.advance(state, at) {

@@ -104,7 +104,8 @@ impl<T: Real> Pid<T> {
         Self::checked(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
     }
 
-    /// The paper's PID (14), Table 1: `k_d` = 2, filtered over 0.1 s. It has no limits.
+    /// The PID (14) of Nguyen et al. (2018), Table 1: `k_d` = 2, filtered over 0.1 s. It has no
+    /// limits.
     ///
     /// The paper does not specify the derivative filter. On the reference rig the loop diverges
     /// with a filter time constant below 20 ms.
@@ -118,7 +119,8 @@ impl<T: Real> Pid<T> {
         })
     }
 
-    /// The paper's PIV (16), Table 1: `k_d` = 10 on the distal velocity. It has no limits.
+    /// The PIV (16) of Nguyen et al. (2018), Table 1: `k_d` = 10 on the distal velocity. It has no
+    /// limits.
     #[must_use]
     pub fn paper_piv() -> Self {
         Self::checked(PidSettings {
@@ -172,7 +174,8 @@ impl<T: Real> Pid<T> {
         self.exception(state, &sample)
     }
 
-    /// The same step with every term for telemetry: [`terms`](Self::terms) after the step.
+    /// The same step, with every term for telemetry: the result of [`terms`](Self::terms) after the
+    /// step.
     pub fn step_with_terms(&self, state: &mut PidState<T>, at: &PidInput<T>) -> PidOutput<T> {
         let Output { command, status } = self.step(state, at);
         PidOutput {
@@ -205,7 +208,7 @@ impl<T: Real> Pid<T> {
     ///
     /// If the gains of this law are positive, a command at its upper limit means that the outer
     /// loop cannot get more. Pass this result to the [`applied`](Self::applied) of the outer loop.
-    /// The result is the same whether the range cuts the command off or the integral just fills the
+    /// The result is the same whether the range cuts the command or the integral just fills the
     /// range.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
@@ -221,7 +224,7 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// Reports the drive's response to the last command, if the drive did not apply it.
+    /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
     /// start then continue from the applied command. The integral reverses the part of its last

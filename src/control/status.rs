@@ -162,7 +162,8 @@ impl<T: Real> Fallback<T> {
 
     /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
     ///
-    /// With 1, every second sample may be bad. 0 is refused, because the score would never rise.
+    /// With 1, every second sample may be bad without a fault. 0 is refused, because the score
+    /// would never rise.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"`.

@@ -73,7 +73,7 @@ families! {
 }
 
 impl Family {
-    /// The family of that name.
+    /// The family with this name.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the catalogue has no such family.

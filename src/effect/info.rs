@@ -165,7 +165,7 @@ pub struct ShapeInfo {
     pub dimension: Dimension,
 }
 
-/// Properties of one effect, for any shape parameters.
+/// Properties of one effect that do not depend on its shape parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Info {
@@ -212,8 +212,8 @@ impl Info {
 
 /// One effect as a separate type: its properties and its regressor.
 ///
-/// It is for a [`FixedModel`](crate::model::FixedModel); [`Effect`](super::Effect) holds any
-/// effect. Only the effects of this crate implement the trait.
+/// A [`FixedModel`](crate::model::FixedModel) uses it; [`Effect`](super::Effect) holds any effect.
+/// Only the effects of this crate implement the trait.
 pub trait Regressor<T>: sealed::Sealed {
     /// Properties of the effect, without its shape parameters.
     const INFO: &'static Info;

@@ -17,7 +17,7 @@ const SATURATED: f64 = 1e30;
 /// Constants of a shape for the step, computed once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Constants<N> {
-    /// How much faster unloading starts than loading, less one: `2·sigma - 1`.
+    /// Ratio of the initial rates of unloading and loading, minus one: `2·sigma - 1`.
     pub c: N,
     pub n: N,
     /// `-1/n`.

@@ -33,18 +33,18 @@
 //!
 //! `dzeta = p·f / (1 + p·|f'|/2 + p²·(f'²/12 - f·f''/6))`, of third order.
 //!
-//! While loading `f'' <= 0`, so every term of the denominator is positive. With
-//! `r = p·f/(1 - zeta)` the denominator gets one more term, `27/256·r⁴`, because
-//! `1 + 27/256·r⁴ >= r` for every `r`. Hence `0 <= dzeta <= 1 - zeta` for **any** step. While
-//! unloading the step ends at `zeta = 0`. The path up to this point is the root of a quadratic,
-//! and the rest of the path is loading. Comparisons enforce both bounds as well, so the bounds
-//! hold in rounded arithmetic and for a wrong power function.
+//! While loading `f'' <= 0`, so every term of the denominator is positive. With `r = p·f/(1 -
+//! zeta)` the denominator gets one more term, `27/256·r⁴`, because `1 + 27/256·r⁴ >= r` for every
+//! `r`. Hence `0 <= dzeta <= 1 - zeta` for **any** step. While unloading the step ends at `zeta =
+//! 0`. The path up to this point is the root of a quadratic, and the rest of the path is loading.
+//! Comparisons enforce both bounds as well, so the bounds also hold in rounded arithmetic and with
+//! an inaccurate power function.
 //!
 //! Where `n·(1 - zeta) <= 0.03` the rest of the path is a logistic equation with a closed-form
 //! solution. The local error determines where a long increment is split. The cost of a jump
-//! therefore grows with `ln(sigma)` only. From full saturation to full saturation a jump evaluates
-//! at most 30 powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`). A
-//! sampled signal needs one power per sample.
+//! therefore grows with `ln(sigma)` only. A jump from one saturation to the other evaluates at most
+//! 30 powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`). A sampled signal
+//! needs one power per sample.
 //!
 //! # The bounded-time step
 //! For any increment, the step evaluates one power `a^(n-1)` and calls no libm function. The power
@@ -80,7 +80,7 @@
 //!
 //! On random jumps within ±16 N·m the splitting step has an error of at most 8e-4 of eta for every
 //! tested shape (mean 1.6e-4). The next table lists the errors of the bounded-time step: the
-//! greatest error of eta in one step, and the mean in brackets. The jumps lie within ±0.3, ±3 and
+//! largest error of eta in one step, and the mean in brackets. The jumps lie within ±0.3, ±3 and
 //! ±16 N·m at `rho = 0.09582`, which are paths up to 0.06, 0.6 and 3:
 //!
 //! | n | ±0.3 N·m | ±3 N·m | ±16 N·m |
@@ -91,15 +91,15 @@
 //! | 3.871 | 2.9e-7 (6.9e-9) | 2.2e-3 (4.8e-5) | 6.0e-2 (4.5e-3) |
 //! | 10 | 3.0e-7 (7.1e-9) | 2.6e-3 (6.4e-5) | 1.4e-1 (9.1e-3) |
 //!
-//! The table is for `sigma = 0.6`. With 98.36 the greatest errors are 8.5e-4 (n = 1), 3.0e-2 (n
-//! = 1.5) and 1.5e-1 (n = 10). A long jump ends near saturation, where earlier errors decay.
+//! The table is for `sigma = 0.6`. With 98.36 the largest errors are 8.5e-4 (n = 1), 3.0e-2 (n =
+//! 1.5) and 1.5e-1 (n = 10). A long jump ends near saturation, where earlier errors have decayed.
 //!
 //! `cargo bench --bench step` prints all of these numbers; the tests are in `tests/hysteresis`.
 //!
 //! # Slope
 //! In the bounded-time step, eta rises by at most `2·sigma` times the path. This is proved up to
 //! `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. From about `n = 12`
-//! on, the slope while unloading is up to 1.39 times this value. An inverse near its greatest sigma
+//! on, the slope while unloading is up to 1.39 times this value. An inverse near its largest sigma
 //! may then have more than one solution.
 //!
 //! Source: Bouc 1967, Wen 1976; equations (2), (7); Ikhouane & Rodellar,

@@ -36,7 +36,7 @@ pub struct BoucWenState<T> {
 }
 
 impl<T: Real> BoucWenState<T> {
-    /// The virgin state: eta is zero, and the first sample only sets the input.
+    /// The initial state: eta is zero, and the first sample only sets the input.
     #[inline]
     #[must_use]
     pub fn new() -> Self {

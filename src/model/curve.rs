@@ -7,11 +7,12 @@ use crate::{Error, Real};
 
 impl<T: Real> Term<T> {
     /// The terms of a piecewise linear [curve](crate::effect::CurvePosition) through the points `(x, f)`,
-    /// constant beyond its ends: an offset of the first f, and a segment between any two points.
+    /// constant beyond its ends: an offset with the first f, and a segment between each two
+    /// neighbouring points.
     ///
     /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source; a curve over the
     /// load has the load's channel as its source. x is in the unit of `over` and ascends, f is in
-    /// the unit of the output. A curve that is odd in the velocity has points at both signs.
+    /// the unit of the output. A curve that is odd in the velocity needs points of both signs.
     ///
     /// ```
     /// use bowden::effect::{Motion, Quantity};

@@ -1,7 +1,7 @@
 //! A model whose effects are fixed at compile time.
 //!
-//! A [`Model`] holds any effect, so the image contains the code of all effects. Here the
-//! effects are types: the image contains only the named effects, and a sample costs only their
+//! A [`Model`] holds any effect, so the image contains the code of all effects. In a [`FixedModel`]
+//! the effects are types: the image contains only the named effects, and a sample costs only their
 //! time. Both give the same numbers, to the bit.
 
 use super::{motion, Model, ModelState, Sample, Term};
@@ -67,7 +67,7 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         &self.terms
     }
 
-    /// The same model with effects of any kind, for a
+    /// The same model as a type that can hold any effects, for a
     /// [`Compensator`](crate::control::Compensator) or a file.
     #[must_use]
     pub fn to_model(&self) -> Model<T, N> {
@@ -101,7 +101,7 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same step, which also reports each term's share of the output, as
+    /// The same step, which also reports each term's contribution to the output, as
     /// [`Model::step_with`] does.
     #[inline]
     pub fn step_with(

@@ -2,7 +2,7 @@
 //! floating-point unit computes a double in software.
 //!
 //! The angle is reduced exactly, in integers, by the bits of 2/pi that its exponent selects.
-//! The greatest error, 1.6 units in the last place, therefore holds at every finite argument.
+//! The largest error, 1.6 units in the last place, therefore holds at every finite argument.
 //! `cargo test --test exhaustive -- --ignored` checks it at all arguments up to 1e4, and at one
 //! in sixteen beyond.
 //!

@@ -4,7 +4,7 @@
 //! uses them for its powers: its bound |eta| <= 1 holds for any power function, and the error of
 //! these functions is a few roundings.
 //!
-//! | function | arguments | greatest error |
+//! | function | arguments | largest error |
 //! |---|---|---|
 //! | [`log2`] | every normal number above zero | 3.7e-7 of the result |
 //! | [`exp2`] | -126 to 127 | 2.9e-7 of the result |
@@ -14,13 +14,13 @@
 //! | [`tanh`] | all | 4e-7 of the result |
 //!
 //! `cargo test --test exhaustive -- --ignored` checks the table at all arguments, the power at
-//! every eighth. For any other argument each function returns some float.
+//! every eighth. For any other argument each function returns an arbitrary float.
 
 use core::f32::consts::{LN_2, LOG2_E};
 
 /// The bits of 1.
 const ONE: i32 = 0x3f80_0000;
-/// The bits of sqrt(1/2), the least mantissa: the logarithm has no jump at 1.
+/// The bits of sqrt(1/2), the smallest mantissa, so that the logarithm has no jump at 1.
 const LEAST: i32 = 0x3f35_04f3;
 /// Bits of a mantissa.
 const MANTISSA: u32 = 23;

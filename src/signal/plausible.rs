@@ -52,7 +52,7 @@ pub enum Implausible {
     Stuck,
 }
 
-/// A sample after the check.
+/// Result of the check of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlausibleOutput<T> {
@@ -242,11 +242,11 @@ impl<T: Real> Plausible<T> {
     /// The same check with a stuck limit: `samples` equal readings in succession mean that the
     /// sensor is stuck; with 0 this is never reported.
     ///
-    /// A stuck sensor stays stuck until its reading changes, at rest too. If the machine cannot
+    /// A stuck sensor stays stuck until its reading changes, even at rest. If the machine cannot
     /// move for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
     ///
-    /// Readings count only while the machine moves. A coarse encoder repeats its reading at low
-    /// speed: choose more samples than one of its counts lasts at that speed.
+    /// Equal readings count only while the machine moves. A coarse encoder repeats its reading at
+    /// low speed: choose more samples than one of its counts lasts at that speed.
     #[must_use]
     pub const fn with_stuck_after(self, samples: u32) -> Self {
         Self {
@@ -267,10 +267,10 @@ impl<T: Real> Plausible<T> {
         longest!(self, longest_dt, T::ZERO)
     }
 
-    /// Checks a sample taken `dt` \[s\] after the one before.
+    /// Checks a sample taken `dt` \[s\] after the previous one.
     ///
     /// `moves` states whether the machine moves, so that the signal must change. A change of the
-    /// command or of another sensor shows this, for example.
+    /// command or of another sensor indicates this, for example.
     ///
     /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must have
     /// the same value. A `dt` that is negative, NaN or infinite counts as

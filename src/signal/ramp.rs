@@ -1,4 +1,4 @@
-//! A reference that a loop can follow.
+//! A reference ramp that a loop can follow.
 
 use crate::error::{above_zero, not_below_zero};
 use crate::signal::Compensated;
@@ -7,8 +7,8 @@ use crate::{Error, Real};
 /// A reference ramp: a rate limit, then a first-order lag.
 ///
 /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-/// reference can exceed what the drive can deliver. The anti-windup, not the gains, then determines
-/// the response.
+/// reference can demand more than the drive can deliver; the anti-windup, not the gains, then
+/// determines the response.
 ///
 /// ```
 /// use bowden::signal::{Ramp, RampState};

@@ -255,7 +255,8 @@ impl<T: Real> Rates<T> {
     /// the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity has 93 % of its amplitude and
     /// lags by 22°; the acceleration has 86 % and lags by 44°. The delays are `0.064/f_c` and
     /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase. With causal
-    /// rates the model's error is therefore larger, and a shorter tau trades delay for noise.
+    /// rates the model's error is therefore larger; a shorter tau reduces the delay but increases
+    /// the noise.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also if the time constant
@@ -312,7 +313,7 @@ impl<T: Real> Rates<T> {
     /// The motion at a `position` \[channel unit\] measured `dt` \[s\] after the last call.
     ///
     /// `dt` is the time since the last call, whether that sample was good or bad. It must be above
-    /// zero at the first call too. A bad sample leaves the state unchanged except for the elapsed
+    /// zero, even at the first call. A bad sample leaves the state unchanged except for the elapsed
     /// time.
     #[inline]
     pub fn step(&self, state: &mut RatesState<T>, position: T, dt: T) -> RatesOutput<T> {
@@ -436,7 +437,7 @@ impl<T: Real> RatesState<T> {
 
     /// The time of the bad samples since the last good one \[s\].
     ///
-    /// It does not include a `dt` that was unusable.
+    /// It does not include unusable values of `dt`.
     #[inline]
     #[must_use]
     pub fn gap(&self) -> T {

@@ -1,4 +1,5 @@
-//! The numbers of a stored state: a number that is not finite could persist indefinitely.
+//! Checks the numbers of a stored state, because a number that is not finite could persist
+//! indefinitely.
 
 use crate::{Error, Real};
 use serde::de::{Deserialize, Deserializer, Error as _};

@@ -16,7 +16,7 @@ pub(super) struct Adapts {
     distance: Enclosure,
     /// The distance over the bound of a switching leakage.
     bounds: Enclosure,
-    /// Greatest magnitude \[unit of the estimate\].
+    /// Largest magnitude \[unit of the estimate\].
     most: Enclosure,
 }
 

@@ -15,13 +15,13 @@ pub(super) const MOST: usize = 16;
 /// One regressor.
 #[derive(Clone, Copy)]
 pub(super) struct Term {
-    /// Greatest `|theta_hat|`.
+    /// Largest `|theta_hat|`.
     pub(super) estimate: Enclosure,
-    /// Greatest `|theta|`.
+    /// Largest `|theta|`.
     truth: Enclosure,
-    /// Greatest `|g·theta_hat - theta|`.
+    /// Largest `|g·theta_hat - theta|`.
     mismatch: Enclosure,
-    /// Greatest `|x|`.
+    /// Largest `|x|`.
     pub(super) magnitude: Enclosure,
     rate: Enclosure,
     pub(super) adapts: Adapts,
@@ -34,13 +34,13 @@ pub(super) struct Gains {
     pub(super) lambda: Enclosure,
     pub(super) epsilon: Enclosure,
     pub(super) step: Enclosure,
-    /// Least and greatest alpha.
+    /// Minimum and maximum of alpha.
     pub(super) alpha: [Enclosure; 2],
-    /// Greatest beta_hat.
+    /// Largest beta_hat.
     pub(super) beta: Enclosure,
-    /// Least and greatest g = alpha·beta_hat.
+    /// Minimum and maximum of g = alpha·beta_hat.
     pub(super) g: [Enclosure; 2],
-    /// Greatest delta_hat.
+    /// Largest delta_hat.
     pub(super) delta: Enclosure,
     /// At least `T(s/epsilon)/s`.
     pub(super) slope: Enclosure,
@@ -54,7 +54,7 @@ pub(super) struct Gains {
     pub(super) w: Enclosure,
     /// Xi \[N·m/s\].
     pub(super) xi: Enclosure,
-    /// Greatest `|theta'x + D|`.
+    /// Largest `|theta'x + D|`.
     pub(super) load: Enclosure,
     /// Adaptation of beta_hat and delta_hat.
     pub(super) adapts: [Adapts; 2],

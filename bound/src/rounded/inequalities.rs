@@ -21,7 +21,7 @@ pub enum Named {
     Stiffness,
     /// `h·lambda·W + h·Xi + R_s + E_s <= h·g⁻·(lambda·k·S - Z)`.
     SStays,
-    /// The carry of z's sum after a step, and its permitted maximum.
+    /// The carry of z's sum after a step is at most its permitted maximum.
     Owed,
     /// `Z <= z_limit`.
     ZLimit,

@@ -32,8 +32,8 @@ use gains::Gains;
 ///
 /// **A limit that may be active.** The eighth inequality states that no command in the box exceeds
 /// the limit. If it fails, the three inequalities of [`at_the_limit`](Self::at_the_limit) are
-/// sufficient. If a limit that can hold the reference against the load cuts a command, z is frozen,
-/// and the box is the same (`theorems/Limit.v`).
+/// sufficient instead. If a limit that can hold the reference against the load cuts a command, z is
+/// frozen, and the box is the same (`theorems/Limit.v`).
 ///
 /// **A slew-rate limit must not be active.** [`slew`](Self::slew) states that every step from the
 /// box changes the command by less than the slew-rate limit allows (`theorems/Slew.v`).
@@ -68,16 +68,16 @@ use gains::Gains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakRounded {
-    /// S \[N·m\]: the bound on `|s|`. It is the least value for which the proof succeeds, to a
+    /// S \[N·m\]: the bound on `|s|`. It is the smallest value for which the proof succeeds, to a
     /// relative accuracy of 2^-14.
     pub s: Enclosure,
     /// Z \[N·m·s\]: the bound on `|z|`.
     pub z: Enclosure,
-    /// W \[N·m\]: greatest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
+    /// W \[N·m\]: largest `|(g-1)·(r + r'/lambda) + (g·theta_hat - theta)'x - D|`.
     pub w: Enclosure,
-    /// Xi \[N·m/s\]: greatest rate of `D + theta'x`.
+    /// Xi \[N·m/s\]: largest rate of `D + theta'x`.
     pub xi: Enclosure,
-    /// Least and greatest g = alpha·beta_hat.
+    /// Minimum and maximum of g = alpha·beta_hat.
     pub g: [Enclosure; 2],
     /// S + lambda·Z \[N·m\].
     pub error: Enclosure,
@@ -112,7 +112,7 @@ impl PeakRounded {
         }
     }
 
-    /// The inequalities at the least S that they allow, even if some do not hold.
+    /// The inequalities at the smallest S that they allow, even if some do not hold.
     ///
     /// The argument is a settings struct, since [`Adaptive::try_new`] refuses some settings
     /// that fail. If no S is sufficient, the inequalities are evaluated at the S for exact
@@ -166,7 +166,7 @@ impl PeakRounded {
     }
 
     /// The first violated inequality. For a limit that may be active it is [`Named::Reserve`], if
-    /// that one fails.
+    /// that inequality fails.
     #[must_use]
     pub fn refused(&self) -> Option<&Inequality> {
         let [reserve, waiting, slack] = &self.at_the_limit;

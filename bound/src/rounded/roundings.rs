@@ -50,7 +50,7 @@ pub(super) struct Word {
     pub(super) unit: Enclosure,
     /// Half of the least number above zero.
     pub(super) least: Enclosure,
-    /// The greatest number.
+    /// The largest number.
     pub(super) most: Enclosure,
 }
 
@@ -88,9 +88,9 @@ pub struct Roundings {
     pub command: Enclosure,
     /// Rounding error of z, with the earlier carry of its sum \[N·m·s\].
     pub z: Enclosure,
-    /// Greatest permitted carry of the command's sum \[command unit\].
+    /// Largest permitted carry of the command's sum \[command unit\].
     pub owed_by_command: Enclosure,
-    /// Greatest permitted carry of z's sum \[N·m·s\].
+    /// Largest permitted carry of z's sum \[N·m·s\].
     pub carry_error_z: Enclosure,
     /// Carry of z's sum after a step that starts with the permitted carry \[N·m·s\].
     pub owed_after: Enclosure,

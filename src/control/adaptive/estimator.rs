@@ -23,7 +23,7 @@ pub enum Leakage<T> {
     /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
     ///
     /// The rate rises from zero at `bound` to `rate` at twice the bound. This is the switching
-    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It leaves no
+    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It causes no
     /// bias if the true value lies within the bound.
     Switching {
         /// Leakage beyond twice the bound \[1/s\], not negative.
@@ -74,11 +74,11 @@ impl<T: Real> Leakage<T> {
 
 /// Adaptation of one estimate `p`: (24)-(26) in sampled time, with bounds.
 ///
-/// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then clamped to `[low, high]`. Here v
-/// is the input from the law (`-lambda·s·x` for a regressor x). The leakage is implicit: it
-/// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
-/// not depend on h. The update is computed as an increment and summed with compensation, so
-/// a slow leakage does not stall in f32.
+/// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then clamped to `[low, high]`. Here v is
+/// the input from the law (`-lambda·s·x` for a regressor x). The leakage is implicit, so it cannot
+/// overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does not depend
+/// on h. The update is computed as an increment and summed with compensation, so a slow leakage
+/// does not stall in f32.
 ///
 /// ```
 /// use bowden::control::{Estimator, Leakage};
@@ -108,9 +108,9 @@ impl<T: Real> Leakage<T> {
 pub struct Estimator<T> {
     /// Initial value of the estimate \[unit of the estimate\], within the bounds.
     pub initial: T,
-    /// Least value \[unit of the estimate\].
+    /// Lower bound \[unit of the estimate\].
     pub low: T,
-    /// Greatest value \[unit of the estimate\].
+    /// Upper bound \[unit of the estimate\].
     pub high: T,
     /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
     pub gain: T,
@@ -121,7 +121,7 @@ pub struct Estimator<T> {
 }
 
 impl<T: Real> Estimator<T> {
-    /// An estimate with a constant value: both bounds equal this value.
+    /// A constant estimate: both bounds equal this value.
     #[must_use]
     pub const fn fixed(value: T) -> Self {
         Self {

@@ -7,7 +7,7 @@
 //! acceleration; **each effect that the bench identifies is a further regressor**, with its value
 //! from the bench as prior.
 //!
-//! **Two forms for two plants.** In sampled time e' creates an algebraic loop:
+//! **Two forms for two kinds of plant.** In sampled time e' creates an algebraic loop:
 //! - The form [as published](Form::AsPublished) closes the loop through a filtered difference.
 //!   It is for plants with inertia.
 //! - The [first-order](Form::FirstOrder) form solves the loop. It is for plants that respond
@@ -116,8 +116,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.settings.largest_step()
     }
 
-    /// Whether this law can produce the state, that is, whether its numbers are finite and every
-    /// estimate is within its bounds.
+    /// Whether the state is valid for this law: its numbers are finite and every estimate is within
+    /// its bounds.
     ///
     /// Check a stored state before its first use. A step maps a valid state to a valid state,
     /// for any input.

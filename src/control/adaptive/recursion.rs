@@ -15,7 +15,7 @@ pub struct ErrorState<T> {
     pub z: T,
 }
 
-/// The disturbances of the errors in one step of the [`LagRecursion`].
+/// The disturbances that act on the errors in one step of the [`LagRecursion`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance<T> {
@@ -32,12 +32,12 @@ pub struct Disturbance<T> {
 
 /// One step of the errors in the closed loop of the first-order form and a static plant.
 ///
-/// On `y = alpha·u - theta'x - D` with u from the previous sample, the errors satisfy exactly
-/// `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and
-/// `z⁺ = z + h·(s - lambda·z)`. This holds for any sequence of `h`, as long as no limit and no
-/// bound on z is active. The box theorem (`PeakSampled` of `bowden-bound`) applies
-/// to this recursion. It bounds `|w|`, which contains the disturbance D. Errors that start
-/// inside its box of s and z stay inside.
+/// On `y = alpha·u - theta'x - D` with u from the previous sample, the errors satisfy exactly `s⁺ =
+/// s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and `z⁺ = z + h·(s -
+/// lambda·z)`. This holds for any sequence of steps `h`, as long as no limit and no bound on z is
+/// active. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion.
+/// It bounds `|w|`, which contains the disturbance D. Errors that start inside its box of s and z
+/// stay inside.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};

@@ -38,7 +38,7 @@ pub enum Form<T> {
     },
 }
 
-/// Response to a regressor that is not finite: a NaN from an encoder need not open the torque loop.
+/// Response to a regressor that is not finite; a NaN from an encoder need not open the torque loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -95,7 +95,7 @@ pub struct AdaptiveSettings<T, const N: usize> {
     pub lambda: T,
     /// epsilon \[N·m\], above zero: width of the smooth sign.
     ///
-    /// With one sample of delay, choose at least a fortieth of the greatest delta_hat.
+    /// With one sample of delay, choose at least a fortieth of the largest delta_hat.
     /// Otherwise the command chatters.
     pub epsilon: T,
     /// The smooth sign function.
@@ -108,7 +108,7 @@ pub struct AdaptiveSettings<T, const N: usize> {
     /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
     #[cfg_attr(feature = "serde", serde(with = "super::list"))]
     pub theta: [Estimator<T>; N],
-    /// Greatest magnitude of the accumulated error z \[N·m·s\].
+    /// Largest magnitude of the accumulated error z \[N·m·s\].
     #[cfg_attr(feature = "serde", serde(default = "T::max_value"))]
     pub z_limit: T,
     /// Whether the estimates are frozen.
@@ -295,7 +295,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// published.
     ///
     /// `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is the plant's gain times the
-    /// greatest beta_hat. Up to this step the map of the error does not decrease in s, and the box
+    /// largest beta_hat. Up to this step the map of the error does not decrease in s, and the box
     /// theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings
     /// that [`Adaptive::try_new`](super::Adaptive::try_new) refuses, but their gains must be
     /// positive and finite.

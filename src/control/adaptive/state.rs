@@ -79,7 +79,7 @@ pub struct AdaptiveTerms<T, const N: usize> {
     pub smooth_sign: T,
     /// Virtual command ubar \[N·m\], (23).
     pub virtual_command: T,
-    /// The law's own share of the command before limits \[command unit\].
+    /// The law's own part of the command before limits \[command unit\].
     pub law: T,
     /// Feed-forward \[command unit\].
     pub feed_forward: T,
@@ -171,8 +171,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         }
     }
 
-    /// Resets to the start like [`new`](Self::new), but keeps the applied command, the score of the
-    /// bad samples and the latch of the safe command.
+    /// Resets to the start like [`new`](Self::new), but keeps the applied command, the score of bad
+    /// samples, and a latched safe command.
     ///
     /// A slew-rate limit and the first-order form continue from the applied command, and a bad
     /// sample holds it. The next good sample after an acknowledged fault starts from it. For a
@@ -185,7 +185,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         };
     }
 
-    /// Prepares a stored state for a start after a power-off: no command is applied.
+    /// Prepares a stored state for a restart after a power-off, when no command is applied.
     ///
     /// Like [`reset`](Self::reset), but the estimates are kept, and the command becomes the value
     /// nearest to zero within the limits. A latched safe command stays latched, and the score of
@@ -211,7 +211,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         self.held.acknowledge();
     }
 
-    /// Reports the drive's response to the last command, if the drive did not apply it.
+    /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit and the first-order form then
     /// continue from the applied command. At the next good sample z moves no further towards this

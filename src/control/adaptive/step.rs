@@ -11,7 +11,8 @@ use crate::signal::{Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// The command \[command unit\] for one sample; call this method once per sample.
+    /// Processes one sample and returns the command \[command unit\]; call this method once per
+    /// sample.
     ///
     /// The order of a step is:
     /// 1. `e = y - y_r`, and `s = e + lambda·z` with z from the previous sample;
@@ -22,14 +23,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// would not hold.
     ///
     /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
-    /// does not move further against that limit. The estimates do not change while s requires more
+    /// does not move further towards that limit. The estimates do not change while s requires more
     /// than the limit allows. Both unwind at once.
     ///
     /// A bad sample leaves the state unchanged and holds the last good command, see
-    /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt) is a
-    /// bad sample. So is a finite sample so large that the law overflows ([`Fault::Overflow`]).
-    /// The command is within the limits **for any state**, including a stored state and a state
-    /// of another law.
+    /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt) is a bad
+    /// sample. So is a finite sample that is so large that the law overflows ([`Fault::Overflow`]).
+    /// The command is within the limits **for any state**, including a stored state and a state of
+    /// another law.
     #[inline]
     pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         if state.held.may_step() {
@@ -77,7 +78,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// Every term that a step on a good sample would have, from a state before that step.
+    /// Every term that a step on a good sample would have, computed from the state before that
+    /// step.
     #[must_use]
     pub fn terms(
         &self,

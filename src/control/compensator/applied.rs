@@ -13,8 +13,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// there.
     ///
     /// With [`Applied::AtUpperLimit`] the amount is unknown, so the model's input does not rise.
-    /// With [`Applied::AtLowerLimit`] it does not fall. If the method is called twice after one
-    /// step, the second call applies.
+    /// With [`Applied::AtLowerLimit`] it does not fall. If the method is called twice after a step,
+    /// the second call applies.
     ///
     /// ```
     /// use bowden::control::{Applied, Compensator, CompensatorInput, CompensatorState};

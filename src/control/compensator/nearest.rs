@@ -15,7 +15,7 @@ pub struct Lowered<T> {
     pub to: T,
 }
 
-/// The differences between a [`Compensator`] and its model.
+/// The differences between the model of a [`Compensator`] and the identified model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Changed<T, const N: usize> {
@@ -58,10 +58,10 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor) still refers
     /// to the model's indices.
     ///
-    /// The cost is an error: with this command, the true model does not give exactly the desired
+    /// The price is an error: with this command, the true model does not give exactly the desired
     /// output. To measure the error, run the feed-forward and the true model in series, as
-    /// `examples/nearest.rs` does. A model that was fitted within the bound has a smaller error
-    /// than one that was lowered to the bound afterwards.
+    /// `examples/nearest.rs` does. A model that is fitted within the bound has a smaller error than
+    /// one that is changed to meet the bound afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;

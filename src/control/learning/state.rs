@@ -50,8 +50,8 @@ impl<T: Real, M: AsRef<[T]>> IterativeLearningState<T, M> {
         }
     }
 
-    /// The learned value of each cell \[command unit\], within ±limit: for a plot, or to be
-    /// stored for [`resume`](super::IterativeLearning::resume).
+    /// The learned value of each cell \[command unit\], within ±limit, for a plot or for a later
+    /// [`resume`](super::IterativeLearning::resume).
     #[inline]
     #[must_use]
     pub fn learned(&self) -> &[T] {

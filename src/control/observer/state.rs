@@ -68,9 +68,9 @@ pub(super) fn lag<T: Real>(state: Compensated<T>, target: T, share: T) -> Compen
 impl<T: Real> ObserverState<T> {
     /// A new state, before the first sample; its estimate is zero.
     ///
-    /// The first good sample counts as a steady state: the estimate is then the command that the
-    /// plant at rest lacks. Use a new state after the drive was off, because a command that did not
-    /// reach the motor must not count.
+    /// The first good sample counts as a steady state: the estimate is then the applied command
+    /// minus the command that the nominal plant needs at rest. Use a new state after the drive was
+    /// off, because a command that did not reach the motor must not count.
     #[must_use]
     pub const fn new() -> Self {
         Self {

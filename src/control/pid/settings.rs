@@ -77,9 +77,9 @@ pub enum AntiWindup<T> {
     Clamp,
     /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
     ///
-    /// The part that is cut off at one sample enters at the next one, times `dt/(T_t + dt)`. With
-    /// the other terms at rest it decays by `T_t/(T_t + dt)` per sample, like `e^(−t/T_t)` for a
-    /// short dt, and never overshoots.
+    /// At the next sample, `dt/(T_t + dt)` times the part that was cut off enters the integral.
+    /// With the other terms at rest it decays by `T_t/(T_t + dt)` per sample, like `e^(−t/T_t)` for
+    /// a short dt, and never overshoots.
     BackCalculation {
         /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
         tracking_time: T,
@@ -156,7 +156,7 @@ pub struct PidSettings<T> {
     /// Anti-windup method.
     #[cfg_attr(feature = "serde", serde(default = "conditional"))]
     pub anti_windup: AntiWindup<T>,
-    /// Greatest magnitude of the integral term, above zero \[command unit\].
+    /// Largest magnitude of the integral term, above zero \[command unit\].
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub integral_limit: Option<T>,
     /// The integral is frozen while `|e|` is at most this value, zero or above \[output unit\].

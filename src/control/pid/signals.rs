@@ -49,7 +49,7 @@ impl<T: Real> PidInput<T> {
 pub struct PidOutput<T> {
     /// Command for the drive \[command unit\]: finite and within the limits.
     pub command: T,
-    /// Result of the sample: good, or the fault and the substitute command.
+    /// Status of the sample: good, or the fault and the substitute command.
     pub status: Status,
     /// Telemetry. On a bad sample these are the terms of the last good sample.
     pub terms: PidTerms<T>,
@@ -80,7 +80,7 @@ pub struct PidTerms<T> {
     pub velocity: T,
     /// The feed-forward of the sample \[command unit\].
     pub feed_forward: T,
-    /// The sum before range and slew-rate limit \[command unit\].
+    /// The sum of the terms, before range and slew-rate limit \[command unit\].
     pub unlimited: T,
     /// Whether the range or the slew-rate limit changed the command.
     pub saturated: bool,

@@ -104,7 +104,7 @@ impl<T: Real> PidState<T> {
         }
     }
 
-    /// Starts from a new integral so that the command continues from `output` \[command unit\].
+    /// Restarts with an integral for which the command continues from `output` \[command unit\].
     ///
     /// At the sample `at`, with its feed-forward, the terms add up to `output`, clamped to the
     /// limits. Use this method for a start at a command that is already applied, and for a
@@ -173,7 +173,7 @@ impl<T: Real> PidState<T> {
         };
     }
 
-    /// Prepares a stored state for a start after a power-off: no command is applied.
+    /// Prepares a stored state for a restart after a power-off, when no command is applied.
     ///
     /// The integral, the rate and the samples are cleared. The command becomes the value nearest to
     /// zero within the limits. A latched safe command stays latched, and the score of the bad

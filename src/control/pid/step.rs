@@ -1,4 +1,4 @@
-//! One step: the law on a good sample, and the response to a bad one.
+//! One step: the law on a good sample, and the response to a bad sample.
 
 use super::state::Last;
 use super::{AntiWindup, DerivativeSource, Pid, PidInput, PidState};

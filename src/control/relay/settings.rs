@@ -52,23 +52,23 @@ pub struct RelaySettings<T> {
     /// Hysteresis eps, zero or above \[output unit\]. It must be at least the peak of the noise,
     /// otherwise the relay chatters.
     pub hysteresis: T,
-    /// Greatest distance of the output from the reference, above `hysteresis` \[output unit\].
+    /// Largest distance of the output from the reference, above `hysteresis` \[output unit\].
     ///
-    /// One sample beyond it ends the experiment: the output must lie within this distance at
-    /// the start.
+    /// One sample beyond it ends the experiment, so the output must lie within this distance at the
+    /// start.
     pub most_deviation: T,
     /// Number of successive cycles in the average, at least two.
     pub cycles: u32,
     /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as a
     /// share of this mean. The share must lie between 0 and 1.
     ///
-    /// A cycle with a greater difference restarts the average. A period must have at least
+    /// A cycle with a larger deviation restarts the average. A period must have at least
     /// `2/agreement` samples, because a shorter period cannot be measured to this share.
     pub agreement: T,
     /// Maximum duration of the experiment, at least `longest_dt` \[s\].
     ///
-    /// The budget has 2³² − 1 ticks. Each sample consumes the ticks of its `dt`, rounded up; n
-    /// samples therefore end the experiment early by at most n/2³² of this duration.
+    /// The duration is divided into 2³² − 1 ticks. Each sample consumes the ticks of its `dt`,
+    /// rounded up; n samples therefore end the experiment early by at most n/2³² of this duration.
     pub longest_time: T,
     /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
     pub longest_dt: T,
