@@ -1,9 +1,9 @@
-//! From the bench to the motor: a written model drives a compensator.
+//! From the bench to the motor: an exported model as a feed-forward.
 //!
-//! `bowden identify --invertible --model-out examples/data/demo.rs` has written the module
-//! `demo` from the program's embedded record. Here it is the feed-forward of a torque on a
-//! pulley that turns: the command is what the model needs, and the model behind it gives the
-//! torque that was wanted. `cargo run --release --example feed_forward` prints how nearly.
+//! `bowden identify --invertible --model-out examples/data/demo.rs` has written the module `demo`
+//! from the program's built-in record. Here the compensator computes the command for a desired
+//! torque while the pulley turns, and the model returns the torque for this command. `cargo run
+//! --release --example feed_forward` prints the difference.
 
 #[path = "data/demo.rs"]
 pub mod demo;
@@ -17,7 +17,7 @@ use bowden::Error;
 /// Sample time of the loop \[s\].
 const DT: f32 = 1e-3;
 
-/// Largest difference between the wanted torque and the model's, and the largest command
+/// Largest difference between the desired torque and the model's torque, and the largest command
 /// \[N·m\].
 pub fn run(seconds: f32) -> Result<(f32, f32), Error> {
     let model = demo::model()?;
@@ -31,7 +31,7 @@ pub fn run(seconds: f32) -> Result<(f32, f32), Error> {
     let (mut worst, mut most) = (0.0_f32, 0.0_f32);
     for k in 0..(seconds / DT) as u16 {
         let t = f32::from(k) * DT;
-        // What a controller wants, and what the encoder of the pulley says: its position.
+        // The desired torque of a controller, and the position from the pulley's encoder.
         let desired = 5.0 * (4.0 * t).sin() + 1.5 * (11.0 * t).sin();
         let phi_p = 0.4 * (2.5 * t).sin();
         let pulley = rates.step(&mut past, phi_p, DT).motion;

@@ -1,12 +1,12 @@
-//! A model that no compensator can invert, fed forward all the same.
+//! A feed-forward from a model that has no exact inverse.
 //!
 //! `cargo run --release --example nearest`
 //!
-//! The README's model has sigma = 2.97: just after a reversal its output falls while its
-//! input rises, so there is no inverse, and `Compensator::try_new` refuses it.
-//! `Compensator::try_nearest` inverts the nearest model that has one and tells what it
-//! changed. The error of that is what the true model gives behind the command, beside the
-//! wish; the viscous friction of the pulley is compensated from an encoder by `Rates`.
+//! The README's model has sigma = 2.97: just after a reversal its output falls while its input
+//! rises, so there is no inverse, and `Compensator::try_new` refuses it. `Compensator::try_nearest`
+//! inverts the nearest model that has an inverse and returns the changes. The error is the
+//! difference between the true model's output for the command and the desired output. The viscous
+//! friction of the pulley is compensated with velocities from an encoder through `Rates`.
 
 use bowden::control::{Compensator, CompensatorInput, CompensatorState, Status};
 use bowden::effect::{Effect, Motion};
@@ -16,7 +16,7 @@ use bowden::signal::{Rates, RatesState};
 use bowden::transmission::Transmission;
 use bowden::{Error, Real};
 
-/// What `bowden identify` has identified: torques in N·m, the proximal pulley in rad.
+/// The model that `bowden identify` has identified: torques in N·m, the proximal pulley in rad.
 fn identified<T: Real>() -> Result<Model<T, 1>, Error> {
     let shape = BoucWen::try_new(T::from_f64(0.382), T::from_f64(2.97), T::from_f64(1.02))?;
     let cable = Transmission::torque(
@@ -35,10 +35,11 @@ fn identified<T: Real>() -> Result<Model<T, 1>, Error> {
 }
 
 const DT: f64 = 1e-3;
-/// Counts of the encoder in one turn; its counter starts again after each.
+/// Counts of the encoder per turn; its counter restarts after each turn.
 const COUNTS: u32 = 16_384;
 
-/// The wish \[N·m\] and the true motion of the pulley: a large swing with small reversals.
+/// The desired torque \[N·m\] and the true motion of the pulley: a large swing with small
+/// reversals.
 fn wish(t: f64) -> (f64, Motion<f64>) {
     let torque = 6.0 * (1.9 * t).sin() + 1.5 * (7.3 * t).sin();
     let pulley = Motion {
@@ -49,7 +50,7 @@ fn wish(t: f64) -> (f64, Motion<f64>) {
     (torque, pulley)
 }
 
-/// The firmware's part, in single precision.
+/// The part that runs in firmware, in single precision.
 struct FeedForward {
     compensator: Compensator<f32, 1>,
     rates: Rates<f32>,
@@ -58,7 +59,7 @@ struct FeedForward {
 }
 
 impl FeedForward {
-    /// One tick of the timer: the command \[N·m\] for a wish and a counter.
+    /// One tick of the timer: the command \[N·m\] for a desired torque and a counter.
     fn tick(&mut self, desired: f32, counter: f32) -> (f32, Status) {
         let pulley = self.rates.step(&mut self.pulley, counter, DT as f32);
         let turn = core::f32::consts::TAU / COUNTS as f32;
@@ -90,7 +91,7 @@ fn run(mut feed: FeedForward) -> Result<[f64; 2], Error> {
         if status != Status::Good {
             println!("{t:.3} s: {status:?}");
         }
-        // What the cable needs by its gain alone is a feed-forward too.
+        // For comparison: a feed-forward from the gain of the cable alone.
         let commands = [f64::from(command), desired / 0.952];
         for ((state, input), sum) in [&mut fed, &mut bare]
             .into_iter()
@@ -108,7 +109,7 @@ fn run(mut feed: FeedForward) -> Result<[f64; 2], Error> {
                 channels: &[pulley],
             };
             let error = plant.step(state, &sample) - desired;
-            // After the first reversals, which nobody's initial state explains.
+            // After the first reversals, because the initial state is unknown.
             *sum += if t < 4.0 { 0.0 } else { error * error };
         }
         counted += if t < 4.0 { 0.0 } else { 1.0 };
@@ -132,7 +133,7 @@ fn main() -> Result<(), Error> {
         println!("try_nearest: without {}", model.terms()[term].effect.name());
     }
 
-    // The fit's cut-off was 5 Hz; a turn of the encoder is a turn of its counter.
+    // The cut-off of the fit was 5 Hz; one turn of the encoder is one turn of its counter.
     let rates = Rates::for_cutoff(5.0)?.with_period(COUNTS as f32)?;
     let [fed, bare] = run(FeedForward {
         compensator,

@@ -1,17 +1,17 @@
-/* The torque loop of one joint, to copy into firmware, and two seconds of a joint to run it on.
+/* The torque loop of one joint, to copy into firmware, and a simulated joint for two seconds.
  *
- * A PID closes the loop, the identified model turned round feeds it forward, the adaptive law runs
- * beside it as a second loop, and rates make a velocity of an encoder's counts. No heap. On the way
- * five samples are lost, a connector comes off, and a counter wraps.
+ * A PID closes the loop, the inverse of the identified model is its feed-forward, the adaptive law
+ * runs as a second loop, and rates compute a velocity from encoder counts. No heap. In the
+ * simulation five samples are lost, a connector is unplugged, and a counter wraps.
  *
- * On a computer: main() prints a line every 100 ms and where something happens. On a chip, compiled
- * with -ffreestanding: the board gives `say`, and its start-up code calls main. */
+ * On a computer, main() prints a line every 100 ms and at each event. On a microcontroller, compiled
+ * with -ffreestanding, the board provides `say`, and its start-up code calls main. */
 #include "bowden.h"
 #include "demo.h" /* bowden export --c demo.toml --out demo.h */
 
 #define DT 0.001f         /* [s] */
 #define LONGEST_DT 0.005f /* [s] */
-#define COUNTS 16384      /* of the encoder in a turn */
+#define COUNTS 16384      /* encoder counts per turn */
 #define COUNT (6.2831855f / COUNTS)
 #define TICKS 2000
 
@@ -22,7 +22,7 @@ static void say(const char *line) { puts(line); }
 void say(const char *line);
 #endif
 
-/* ---- the loop: what is copied -------------------------------------------------------------- */
+/* ---- the loop: to be copied ---------------------------------------------------------------- */
 
 typedef struct torque_loop {
     bowden_pid_f32 pid;
@@ -32,7 +32,7 @@ typedef struct torque_loop {
     bowden_rates_f32 rates;
 } torque_loop;
 
-/* One tick: what the sensors say, and what the loop answers. */
+/* One tick: the readings of the sensors, and the output of the loop. */
 typedef struct tick {
     float dt, wanted, torque; /* [s], [N*m], [N*m] */
     uint16_t counts;
@@ -40,7 +40,7 @@ typedef struct tick {
     float velocity, predicted, bench;   /* [rad/s], [N*m], [N*m] */
 } tick;
 
-/* Everything is checked here, once. */
+/* Checks everything, once. */
 static bowden_result start(torque_loop *own, bowden_about *about) {
     bowden_pid_settings_f32 pid = BOWDEN_PID_SETTINGS_F32_INIT;
     bowden_adaptive_settings_f32 law = BOWDEN_ADAPTIVE_SETTINGS_F32_INIT;
@@ -92,7 +92,7 @@ static bowden_result start(torque_loop *own, bowden_about *about) {
     return bowden_rates_init_f32(&own->rates, &rates, about);
 }
 
-/* One sample, from the timer's interrupt. Below zero only where an object was not started. */
+/* One sample, from the timer interrupt. Negative only if an object was not initialised. */
 static bowden_result step(torque_loop *own, tick *at) {
     bowden_rates_output_f32 pulley;
     bowden_compensator_sample_f32 wish = {0};
@@ -108,7 +108,7 @@ static bowden_result step(torque_loop *own, tick *at) {
     channels[DEMO_CHANNEL_PHI_P] = pulley.motion;
     at->velocity = pulley.motion.velocity;
 
-    /* From what is wanted, not from the noisy measurement. */
+    /* From the desired torque, not from the noisy measurement. */
     wish.dt = at->dt;
     wish.desired = at->wanted;
     wish.channels = channels;
@@ -132,7 +132,7 @@ static bowden_result step(torque_loop *own, tick *at) {
     result = bowden_adaptive_step_f32(&own->law, &law, &at->law);
     if (result < 0) return result;
 
-    /* What the model says of the command that goes out: a fault of the cable shows here. */
+    /* The model's prediction for the applied command: a fault of the cable shows here. */
     seen.dt = at->dt;
     seen.input.position = at->pid.command;
     seen.load = at->pid.command;
@@ -142,7 +142,7 @@ static bowden_result step(torque_loop *own, tick *at) {
     return result < 0 ? result : at->pid.result;
 }
 
-/* ---- two seconds of a joint: not for firmware ---------------------------------------------- */
+/* ---- a simulated joint for two seconds: not for firmware ----------------------------------- */
 
 static void append(char **to, const char *text) {
     while (*text) *(*to)++ = *text++;
@@ -224,10 +224,10 @@ int main(void) {
         at.dt = k == 1500 ? 4295.0f : DT; /* a counter that wrapped */
         at.wanted = 8.0f + 4.0f * triangle(k, 500);
         at.torque = torque;
-        /* Five lost samples; a connector that comes off, and is put back. */
+        /* Five lost samples; a connector that is unplugged and reconnected. */
         if ((k >= 300 && k < 305) || (k >= 1000 && k < 1100)) at.torque = nothing / nothing;
         at.counts = (uint16_t)((angle < 0.0f ? angle + 6.2831855f : angle) / COUNT);
-        if (k == 1200) { /* somebody has seen it */
+        if (k == 1200) { /* an operator acknowledges the fault */
             (void)bowden_pid_acknowledge_f32(&loop.pid);
             (void)bowden_adaptive_acknowledge_f32(&loop.law);
         }

@@ -23,9 +23,9 @@ macro_rules! settings {
                 pub init_mark: u32,
                 /// Initial value of the estimate [unit of the estimate], within its bounds.
                 pub initial: $f,
-                /// Least value [unit of the estimate].
+                /// Lower bound [unit of the estimate].
                 pub low: $f,
-                /// Greatest value [unit of the estimate].
+                /// Upper bound [unit of the estimate].
                 pub high: $f,
                 /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
                 pub gain: $f,
@@ -33,7 +33,7 @@ macro_rules! settings {
                 pub prior: $f,
                 /// One of bowden_leakage.
                 pub leakage: u32,
-                /// Greatest leakage, not negative [1/s].
+                /// Largest leakage, not negative [1/s].
                 pub leakage_rate: $f,
                 /// Distance from the prior without leakage, for BOWDEN_LEAKAGE_SWITCHING only;
                 /// above zero [unit of the estimate].
@@ -124,7 +124,7 @@ macro_rules! settings {
                 pub theta: [[<bowden_estimator_ $f>]; BOWDEN_REGRESSORS],
                 /// One of bowden_on_missing for each regressor.
                 pub missing: [u32; BOWDEN_REGRESSORS],
-                /// Greatest magnitude of the accumulated error z, above zero [N*m*s].
+                /// Largest magnitude of the accumulated error z, above zero [N*m*s].
                 pub z_limit: $f,
                 /// Normally 0; any other value freezes the estimates.
                 pub frozen: u32,

@@ -35,9 +35,9 @@ macro_rules! compensator {
             pub struct [<bowden_range_ $f>] {
                 /// The channel, from 0, or BOWDEN_SOURCE_INPUT.
                 pub source: u32,
-                /// Least position, velocity and acceleration.
+                /// Minimum of position, velocity and acceleration.
                 pub low: [<bowden_motion_ $f>],
-                /// Greatest position, velocity and acceleration.
+                /// Maximum of position, velocity and acceleration.
                 pub high: [<bowden_motion_ $f>],
             }
 
@@ -67,7 +67,7 @@ macro_rules! compensator {
             pub struct [<bowden_compensator_output_ $f>] {
                 /// The transmission's input [input unit], such as tau_i [N*m]; finite.
                 pub command: $f,
-                /// Share of the effects in the output [output unit], zero on a bad sample.
+                /// Contribution of the effects to the output [output unit], zero on a bad sample.
                 pub effects: $f,
                 /// The model's hysteresis state, within -1 and 1.
                 pub eta: $f,

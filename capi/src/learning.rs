@@ -87,7 +87,7 @@ macro_rules! learning {
                 /// Gain of the error, not zero, with the sign of the plant's gain [command
                 /// unit/output unit].
                 pub gain: $f,
-                /// Greatest magnitude of the learned values, above zero [command unit].
+                /// Largest magnitude of the learned values, above zero [command unit].
                 pub limit: $f,
                 /// Share of a learned value that is forgotten per cycle, from 0 to 1.
                 pub forgetting: $f,

@@ -48,7 +48,7 @@ macro_rules! observer {
                 pub damping_ratio: $f,
                 /// tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
                 pub time_constant: $f,
-                /// Greatest magnitude of the estimate, above zero [command unit].
+                /// Largest magnitude of the estimate, above zero [command unit].
                 pub limit: $f,
                 /// Longest dt of a good sample, above zero [s].
                 pub longest_dt: $f,

@@ -37,9 +37,9 @@ macro_rules! parts {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_limits_ $f>] {
-                /// Least command [command unit].
+                /// Lower limit of the command [command unit].
                 pub low: $f,
-                /// Greatest command [command unit]; above `low`.
+                /// Upper limit of the command [command unit]; above `low`.
                 pub high: $f,
                 /// Slew-rate limit, above zero [command unit/s]; 0 for none.
                 pub slew: $f,

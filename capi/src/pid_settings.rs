@@ -70,7 +70,7 @@ macro_rules! settings {
                 pub anti_windup: u32,
                 /// Tracking time, for BOWDEN_ANTI_WINDUP_BACK_CALCULATION only; above zero [s].
                 pub tracking_time: $f,
-                /// Greatest magnitude of the integral term, above zero [command unit]; 0 for none.
+                /// Largest magnitude of the integral term, above zero [command unit]; 0 for none.
                 pub integral_limit: $f,
                 /// The integral is frozen while |e| is at most this value, zero (no deadband) or
                 /// above [output unit]. To prevent the limit cycle of static friction, make it

@@ -65,11 +65,11 @@ macro_rules! plausible {
             pub struct [<bowden_plausible_settings_ $f>] {
                 /// The mark that the macro NAME_INIT sets; settings without it are refused.
                 pub init_mark: u32,
-                /// Least plausible sample [signal unit].
+                /// Lower end of the plausible range [signal unit].
                 pub low: $f,
-                /// Greatest plausible sample [signal unit]; above `low`.
+                /// Upper end of the plausible range [signal unit]; above `low`.
                 pub high: $f,
-                /// Greatest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
+                /// Largest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
                 /// it for an angle that wraps.
                 pub rate: $f,
                 /// Longest time of the sensor from one reading to the next, including jitter, above

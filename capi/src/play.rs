@@ -41,7 +41,7 @@ macro_rules! play {
             }
 
             /// Processes one input [input unit]; `output` receives the last output, moved by the
-            /// least amount that keeps it within the half-width r of the input:
+            /// smallest amount that keeps it within the half-width r of the input:
             ///
             ///     y+ = clamp(y, x - r, x + r)
             ///

@@ -112,7 +112,7 @@ macro_rules! relay {
                 /// Hysteresis of the relay, zero or above [output unit]: at least the peak of the
                 /// noise.
                 pub hysteresis: $f,
-                /// Greatest distance of the output from the reference, above `hysteresis`
+                /// Largest distance of the output from the reference, above `hysteresis`
                 /// [output unit]. One sample beyond it ends the experiment.
                 pub most_deviation: $f,
                 /// Number of successive cycles in the average, at least 2.

@@ -1,9 +1,9 @@
-//! A torque loop to copy into firmware, with bad samples and a dead sensor on the way.
+//! A torque loop to copy into firmware, run with bad samples and a dead sensor.
 //!
-//! `torque_loop.rs` is the part to copy, `scenario.rs` the joint that it runs on here.
-//! `cargo run --release --example torque_loop` runs both on the host;
-//! `firmware/examples` runs the same two files as an RTIC task on an emulated Cortex-M4F,
-//! and logs the same numbers through defmt: `cd firmware && cargo xtask --torque-loop`.
+//! `torque_loop.rs` is the part to copy; `scenario.rs` is the simulated joint. `cargo run --release
+//! --example torque_loop` runs both on the host; `firmware/examples` runs the same two files as an
+//! RTIC task on an emulated Cortex-M4F, and logs the same numbers through defmt: `cd firmware &&
+//! cargo xtask --torque-loop`.
 
 mod scenario;
 mod torque_loop;
@@ -11,7 +11,7 @@ mod torque_loop;
 use scenario::{Scenario, RATE};
 use torque_loop::StartError;
 
-/// What `bowden identify --invertible --model-out model.postcard` has written.
+/// The file written by `bowden identify --invertible --model-out model.postcard`.
 const MODEL: &[u8] = include_bytes!("../data/demo.postcard");
 
 fn main() -> Result<(), StartError> {

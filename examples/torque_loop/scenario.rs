@@ -1,8 +1,8 @@
-//! Ten seconds of a joint with faults, the same on a chip as on the host.
+//! Ten seconds of a joint with faults, identical on a microcontroller and on the host.
 //!
-//! [`Scenario::tick`] is what a timer's interrupt does: it reads the sensors, here of a
-//! simulated joint, runs the loop and drives the joint. What it has to tell is a [`Line`]
-//! in whole mN·m, which a chip logs without formatting a float.
+//! [`Scenario::tick`] is the body of a timer interrupt: it reads the sensors of the simulated
+//! joint, runs the loop and drives the joint. Its log is a [`Line`] in whole mN·m, which a
+//! microcontroller can log without formatting a float.
 
 use super::torque_loop::{Action, Sensors, StartError, TorqueLoop, COUNTS};
 use bowden::control::Status;
@@ -11,7 +11,7 @@ use bowden::transmission::Transmission;
 use bowden::{Error, Real};
 use core::fmt::{Display, Formatter};
 
-/// Ticks a second.
+/// Ticks per second.
 pub const RATE: u32 = 1000;
 const DT: f32 = 1e-3;
 /// Ticks of the scenario.
@@ -20,15 +20,15 @@ const LENGTH: u32 = 10_000;
 /// A tick that is logged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Since the start \[ms\].
+    /// Time since the start \[ms\].
     pub time: u32,
-    /// Torque that is wanted \[mN·m\].
+    /// Desired torque \[mN·m\].
     pub wanted: i32,
     /// Torque at the joint \[mN·m\].
     pub torque: i32,
     /// Command \[mN·m\].
     pub command: i32,
-    /// What the loop did.
+    /// Status of the loop.
     pub status: Status,
 }
 
@@ -70,7 +70,7 @@ impl defmt::Format for Line {
     }
 }
 
-/// A cable that is not quite what the bench saw, a drive's lag, a sensor's noise.
+/// A cable that differs slightly from the bench model, the lag of a drive, the noise of a sensor.
 #[derive(Debug)]
 struct Joint {
     cable: Transmission<f32>,
@@ -92,14 +92,14 @@ impl Joint {
         })
     }
 
-    /// A millisecond with a command \[N·m\] and a velocity of the pulley \[rad/s\].
+    /// Advances by one millisecond with a command \[N·m\] and a velocity of the pulley \[rad/s\].
     fn step(&mut self, action: &Action, velocity: f32) {
         let command = if action.enabled { action.command } else { 0.0 };
         self.drive += 0.5 * (command - self.drive);
         self.torque = self.cable.step(&mut self.eta, self.drive) - 0.6 * velocity;
     }
 
-    /// The sensor, with 0.02 N·m of noise either way.
+    /// The sensor, with noise of ±0.02 N·m.
     fn measured(&mut self) -> f32 {
         let next = self.noise.wrapping_mul(1_664_525);
         self.noise = next.wrapping_add(1_013_904_223);
@@ -107,7 +107,7 @@ impl Joint {
     }
 }
 
-/// The loop, its joint, and where they are.
+/// The loop, its joint, and the present tick.
 #[derive(Debug)]
 pub struct Scenario {
     control: TorqueLoop,
@@ -116,14 +116,14 @@ pub struct Scenario {
     status: Status,
 }
 
-/// What a tick tells.
+/// Result of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Told {
-    /// What the firmware does.
+    /// Output of the loop.
     pub action: Action,
-    /// Whether the fault was acknowledged, where somebody tried to.
+    /// Whether an attempt to acknowledge the fault succeeded, if there was one.
     pub acknowledged: Option<bool>,
-    /// A line for the log, where there is one.
+    /// A line for the log, if there is one.
     pub line: Option<Line>,
 }
 
@@ -141,7 +141,7 @@ impl Scenario {
         })
     }
 
-    /// One millisecond; nothing once the scenario is over.
+    /// Advances by one millisecond; `None` after the end of the scenario.
     pub fn tick(&mut self) -> Option<Told> {
         if self.tick >= LENGTH {
             return None;
@@ -153,19 +153,19 @@ impl Scenario {
         let wanted = rise * (8.0 + 4.0 * Real::sin(1.571 * t));
         let (angle, velocity) = (0.5 * Real::sin(1.571 * t), 0.7855 * Real::cos(1.571 * t));
         let measured = self.joint.measured();
-        // An encoder that was reset, for good.
+        // An encoder that has been reset.
         let shift = if k < 7000 { 0.0 } else { 2.0 };
         let action = self.control.tick(&Sensors {
             dt: if k == 8000 { 4295.0 } else { DT }, // a counter that wrapped
             wanted,
             torque: match k {
                 3000..=3004 => f32::NAN, // five lost samples
-                5000..=5099 => f32::NAN, // a connector that comes off, and is put back
+                5000..=5099 => f32::NAN, // a connector that is unplugged and reconnected
                 _ => measured,
             },
             counts: counts(angle + shift),
         });
-        // The first comes while the sensor is still dead, and is refused.
+        // The first attempt comes while the sensor is still dead, and is refused.
         let acknowledged = matches!(k, 5050 | 6000).then(|| self.control.acknowledge());
         self.joint.step(&action, velocity);
         let news = core::mem::discriminant(&self.status) != core::mem::discriminant(&action.status);
@@ -185,7 +185,7 @@ impl Scenario {
     }
 }
 
-/// What an encoder shows; it starts again after a turn.
+/// The count of an encoder, which restarts after each turn.
 fn counts(angle: f32) -> u16 {
     let turns = angle / core::f32::consts::TAU;
     let turns = if turns < 0.0 { turns + 1.0 } else { turns };

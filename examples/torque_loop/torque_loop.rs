@@ -1,16 +1,16 @@
 //! The torque loop of one joint, to copy into firmware.
 //!
-//! A PI closes the loop, the model that the bench has identified turned round feeds it
-//! forward, `signal::Rates` makes a velocity of the encoder's counts. No heap, no panic,
-//! nothing of a board: [`TorqueLoop::try_new`] checks everything once at start-up,
-//! [`TorqueLoop::tick`] is one call of the timer's interrupt.
+//! A PI closes the loop, the inverse of the identified model is the feed-forward, and
+//! `signal::Rates` computes a velocity from the encoder counts. The loop uses no heap, cannot panic
+//! and does not depend on a board. [`TorqueLoop::try_new`] checks everything once at start-up;
+//! [`TorqueLoop::tick`] is one call of the timer interrupt.
 //!
-//! **What happens in a fault.** A bad sample is held for at most 20 ms; then the drive is
-//! switched off and stays off until somebody has called [`TorqueLoop::acknowledge`]. The
-//! watchdog is fed by every tick whose time makes sense, in a fault too: it is there for
-//! a loop that no longer runs, and a chip that restarts would forget the fault.
+//! **What happens in a fault.** During bad samples the command is held for at most 20 ms. Then the
+//! drive is switched off and stays off until [`TorqueLoop::acknowledge`] is called. Every tick with
+//! a valid time feeds the watchdog, even during a fault: the watchdog detects a loop that no longer
+//! runs, and a restart would lose the fault.
 //!
-//! **What it needs** in `Cargo.toml` (a test builds this file in an empty crate with these lines):
+//! **Dependencies** in `Cargo.toml` (a test builds this file in an empty crate with these lines):
 //!
 //! ```toml
 //! [dependencies]
@@ -23,7 +23,8 @@
 //! defmt = ["dep:defmt", "bowden/defmt"]
 //! ```
 //!
-//! The feature `defmt` derives the log formats; without it, delete its lines there and in this file.
+//! The feature `defmt` derives the log formats; if you do not need it, delete its lines there and
+//! in this file.
 
 use bowden::control::{
     AntiWindup, BenchRange, Compensator, CompensatorInput, CompensatorState, Fallback, Limits, Pid,
@@ -34,17 +35,17 @@ use bowden::model::{Model, Source};
 use bowden::signal::{Rates, RatesState};
 use bowden::Error;
 
-/// Counts of the encoder in a turn; they start again after that.
+/// Counts of the encoder per turn; the counter then restarts.
 pub const COUNTS: f32 = 16384.0;
-/// Angle of a count \[rad\].
+/// Angle of one count \[rad\].
 const COUNT: f32 = core::f32::consts::TAU / COUNTS;
-/// What the drive gets while it is off, and where it starts again from \[N·m\].
+/// Command while the drive is off, and the start of the command afterwards \[N·m\].
 const SAFE: f32 = 0.0;
-/// Longest time between two ticks that is a sample \[s\].
+/// Longest valid time between two ticks \[s\].
 const LONGEST_DT: f32 = 0.005;
-/// How the pulley has moved on the bench, as `model.rs` has it in `ranges()`: \[rad\], \[rad/s\],
-/// \[rad/s²\]. An encoder that was reset looks like a motion; the feed-forward takes none for true
-/// that is faster than this.
+/// Range of the pulley's motion on the bench, from `ranges()` in `model.rs`: \[rad\], \[rad/s\],
+/// \[rad/s²\]. An encoder that is reset looks like a motion; the feed-forward clamps a faster
+/// motion to this range.
 const PULLEY: BenchRange<f32> = BenchRange {
     source: Source::Channel(0),
     low: Motion {
@@ -58,20 +59,20 @@ const PULLEY: BenchRange<f32> = BenchRange {
         acceleration: 4.6569395,
     },
 };
-/// A little more than half of what a count of the encoder makes of torque, through the filter of the
-/// rates and the friction of `model.rs`: 0.73 N·m·s/rad · COUNT / (2 · 8 ms) \[N·m\]. Without it the
-/// feed-forward takes each count for a reversal.
+/// A little more than half of the torque that one encoder count causes through the filter of the
+/// rates and the friction in `model.rs`: 0.73 N·m·s/rad · COUNT / (2 · 8 ms) \[N·m\]. Without this
+/// play the feed-forward would treat each count as a reversal.
 const PLAY: f32 = 0.02;
-/// As `bowden identify --model-out` writes it into the file.
+/// The value that `bowden identify --model-out` writes into `model.rs`.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
 /// Why the loop cannot start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StartError {
-    /// The bytes of the model are damaged, or those of another version.
+    /// The bytes of the model are damaged or belong to another version.
     Model,
-    /// A number that its constructor refuses.
+    /// A number that a constructor refuses.
     Settings(Error),
 }
 
@@ -81,33 +82,33 @@ impl From<Error> for StartError {
     }
 }
 
-/// What the sensors say at one tick.
+/// Readings of the sensors at one tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Sensors {
-    /// Since the last tick \[s\], from a counter that runs free.
+    /// Time since the last tick \[s\], from a free-running counter.
     pub dt: f32,
-    /// Torque that is wanted \[N·m\].
+    /// Desired torque \[N·m\].
     pub wanted: f32,
-    /// Torque at the joint \[N·m\]; NaN where the converter reports an error.
+    /// Torque at the joint \[N·m\]; NaN if the converter reports an error.
     pub torque: f32,
     /// Encoder of the pulley.
     pub counts: u16,
 }
 
-/// What the firmware does after a tick.
+/// Actions of the firmware after a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Action {
-    /// To the drive \[N·m\].
+    /// Command for the drive \[N·m\].
     pub command: f32,
     /// Whether the drive's output stage is on.
     pub enabled: bool,
     /// Whether the watchdog is fed.
     pub feed: bool,
-    /// For the log.
+    /// Status for the log.
     pub status: Status,
 }
 
-/// One joint: its configuration, which may live in flash, and its state.
+/// One joint: its configuration, which may be in flash, and its state.
 #[derive(Debug)]
 pub struct TorqueLoop {
     pi: Pid<f32>,
@@ -116,12 +117,12 @@ pub struct TorqueLoop {
     pi_state: PidState<f32>,
     compensator_state: CompensatorState<f32, 8>,
     rates_state: RatesState<f32>,
-    /// Whether the last sample could be used: no fault is acknowledged before.
+    /// Whether the last sample was usable: a fault can be acknowledged only then.
     usable: bool,
 }
 
 impl TorqueLoop {
-    /// A loop at rest, with a model as `bowden identify --model-out model.postcard` writes it.
+    /// A loop at rest, with a model from `bowden identify --model-out model.postcard`.
     ///
     /// # Errors
     /// [`StartError`].
@@ -134,10 +135,10 @@ impl TorqueLoop {
                 ..PidSettings::new(
                     0.5,
                     25.0,
-                    // What the drive can give, and how fast it may change.
+                    // The range of the drive, and how fast the command may change.
                     Limits::try_new(-10.0, 40.0)?.with_slew(2000.0)?,
                     LONGEST_DT,
-                    // 20 ms without a good sample: let go.
+                    // After 20 ms without a good sample: the safe command.
                     Fallback::try_new(20, SAFE)?,
                 )
             })?,
@@ -158,10 +159,10 @@ impl TorqueLoop {
         let dt = now.dt;
         let feed = dt > 0.0 && dt <= LONGEST_DT;
         let angle = f32::from(now.counts) * COUNT;
-        // A time that makes no sense is not known: the rates are held, not started anew.
+        // An invalid time counts as unknown: the rates are held, not restarted.
         let known = if feed { dt } else { f32::NAN };
         let pulley = self.rates.step(&mut self.rates_state, angle, known);
-        // From what is wanted, not from the noisy measurement. A bad sample holds it.
+        // From the desired torque, not from the noisy measurement. A bad sample holds the command.
         let wish = CompensatorInput {
             channels: &[pulley.motion],
             ..CompensatorInput::new(dt, now.wanted)
@@ -181,9 +182,9 @@ impl TorqueLoop {
         }
     }
 
-    /// Somebody has seen the fault: the loop closes again, from the safe command on.
+    /// Acknowledges the fault: the loop closes again and starts from the safe command.
     ///
-    /// Refused, and the drive stays off, while the sample is still bad.
+    /// While the sample is still bad, the call is refused and the drive stays off.
     pub fn acknowledge(&mut self) -> bool {
         if self.usable {
             self.pi_state.acknowledge();

@@ -86,7 +86,7 @@ def test_options_have_their_names_in_python(plain: dict[str, Any]) -> None:
     message = str(refused(unnamed, input="a", output="b"))
     assert message.endswith("; set mode=torque or mode=displacement"), message
     message = str(refused({"a": plain["tau_i"], "b": plain["tau_o"]}, mode="torque"))
-    assert "time= selects another one; rate= takes time from the row number" in message
+    assert "time= selects another one; rate= computes the time from the row number" in message
     assert "--" not in message
 
 

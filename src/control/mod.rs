@@ -17,7 +17,7 @@
 //!
 //! **In flash.** These configurations have a `const` constructor for `f32` and `f64`, which the
 //! compiler checks (see [`constant!`](crate::constant)):
-//! - every configuration of the table except the [`Compensator`],
+//! - every configuration in the table except the [`Compensator`],
 //! - [`Limits`], [`Fallback`], [`NominalPlant`],
 //! - every configuration of [`signal`](crate::signal), and
 //! - [`BoucWen`](crate::hysteresis::BoucWen) and

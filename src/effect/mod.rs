@@ -220,7 +220,7 @@ macro_rules! effects {
                 }
             }
 
-            /// An effect from its own name and its shape parameters in order.
+            /// The effect with this name and these shape parameters, in order.
             ///
             /// # Errors
             /// - [`Error::OutOfRange`] if the catalogue has no such effect, or if a shape

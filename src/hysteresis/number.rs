@@ -87,7 +87,7 @@ impl<T: Real> Number for T {
     }
 }
 
-/// A value and its derivatives by rho, sigma, n and the initial state.
+/// A value and its derivatives with respect to rho, sigma, n and the initial state.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<T> {
     pub value: T,

@@ -122,7 +122,7 @@ impl<T: Real> TryFrom<Stored<T>> for BoucWenState<T> {
     }
 }
 
-/// The state eta with its derivatives by the parameters and the initial state.
+/// The state eta with its derivatives with respect to the parameters and the initial state.
 ///
 /// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -131,18 +131,18 @@ impl<T: Real> TryFrom<Stored<T>> for BoucWenState<T> {
 pub struct Sensitivity<T> {
     /// The state, in [-1, 1].
     pub eta: T,
-    /// Derivative by rho [input unit].
+    /// Derivative with respect to rho [input unit].
     pub d_rho: T,
-    /// Derivative by sigma.
+    /// Derivative with respect to sigma.
     pub d_sigma: T,
-    /// Derivative by n.
+    /// Derivative with respect to n.
     pub d_n: T,
-    /// Derivative by the initial state.
+    /// Derivative with respect to the initial state.
     pub d_eta0: T,
 }
 
 impl<T: Real> Sensitivity<T> {
-    /// The start of a record at `eta0`: all derivatives by the parameters are zero.
+    /// The start of a record at `eta0`: all derivatives with respect to the parameters are zero.
     #[inline]
     #[must_use]
     pub fn start(eta0: T) -> Self {
