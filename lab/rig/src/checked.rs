@@ -2,7 +2,7 @@
 
 use bowden::{Error, Real};
 
-/// Passes a finite value on, refuses NaN and infinities with the parameter's name.
+/// Returns a finite value; refuses NaN and infinities with the parameter's name.
 pub(crate) fn finite<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
     if value.is_finite() {
         Ok(value)

@@ -4,12 +4,12 @@ use super::checked::finite;
 use super::{Drift, MOST_DELAY};
 use bowden::{Error, Real};
 
-/// The numbers of a rig; [`RigConfig::reference`] is the one that figures refer to.
+/// Parameters of a rig; published results refer to [`RigConfig::reference`].
 ///
-/// Plain fields, checked by [`Rig::try_new`](super::Rig::try_new): all of them finite;
-/// inertias, stiffnesses, lags, `velocity_lag` apart, ranges and counts above zero;
-/// dampings, noise and `velocity_lag` not below. The sub-step must resolve the cable's
-/// vibration: `2·h·c/m + h²·k/m <= 1`, where 4 would be the limit of stability.
+/// The fields are public; [`Rig::try_new`](super::Rig::try_new) checks them. All must be finite;
+/// inertias, stiffnesses, lags (except `velocity_lag`), ranges and counts must be above zero;
+/// dampings, noise and `velocity_lag` must not be negative. The sub-step must resolve the cable's
+/// vibration: `2·h·c/m + h²·k/m <= 1`; the limit of stability is 4.
 ///
 /// ```
 /// use bowden_rig::{Rig, RigConfig};
@@ -33,7 +33,7 @@ use bowden::{Error, Real};
     )
 )]
 pub struct RigConfig<T> {
-    /// Torque of the motor for one unit of command, N_A \[N·m/unit\].
+    /// Motor torque per command unit, N_A \[N·m/unit\].
     pub drive_gain: T,
     /// Time constant of the current loop, tau_c \[s\].
     pub drive_lag: T,
@@ -83,7 +83,7 @@ pub struct RigConfig<T> {
     pub delay: u8,
     /// Longest integration sub-step \[s\].
     pub sub_step: T,
-    /// How the conduit is moved; `None` if it is fixed.
+    /// Drift of a moving conduit; `None` if the conduit is fixed.
     pub drift: Option<Drift<T>>,
 }
 
@@ -126,7 +126,7 @@ impl<T: Real> RigConfig<T> {
         }
     }
 
-    /// The reference rig with a conduit that is moved.
+    /// The reference rig with a moving conduit.
     #[must_use]
     pub fn varying() -> Self {
         Self {
@@ -136,8 +136,8 @@ impl<T: Real> RigConfig<T> {
     }
 
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name,
-    /// [`Error::Inadmissible`] where the sub-step is too long.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name, [`Error::Inadmissible`]
+    /// if the sub-step is too long.
     pub(super) fn check(&self) -> Result<(), Error> {
         for (value, name) in [
             (self.drive_lag, "drive_lag"),

@@ -1,15 +1,15 @@
-//! A conduit that is moved while the joint works: B, kappa_eta and T0 drift.
+//! A conduit that moves during operation: B, kappa_eta and T0 drift.
 
 use super::{Noise, RigConfig};
 use bowden::signal::clamp;
 use bowden::Real;
 
-/// How far and how fast the configuration of the conduit wanders.
+/// Size and speed of the drift of the conduit's configuration.
 ///
-/// Three Ornstein-Uhlenbeck processes `o` of unit variance, advanced exactly over each
-/// sample, `o⁺ = a·o + sqrt(1 − a²)·N(0, 1)` with `a = e^(−dt/time)`:
-/// `B − b·|o1|` within [0.85, 1], `kappa_eta·(1 + kappa_eta·o2)` within ±50 %,
-/// `T0 + t0·o3`. All start at zero: at first the configuration is the declared one.
+/// Three Ornstein-Uhlenbeck processes `o` with unit variance, advanced exactly over each sample,
+/// `o⁺ = a·o + sqrt(1 − a²)·N(0, 1)` with `a = e^(−dt/time)`: `B − b·|o1|` within [0.85, 1],
+/// `kappa_eta·(1 + kappa_eta·o2)` within ±50 %, `T0 + t0·o3`. All start at zero, so the initial
+/// configuration is the configured one.
 ///
 /// ```
 /// let drift = bowden_rig::Drift::<f64>::reference();

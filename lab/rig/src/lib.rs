@@ -1,26 +1,27 @@
 //! A simulated rig: motor, cable, spring-loaded joint, sensors, one sample of delay.
 //!
-//! The experiment of Nguyen et al. (2018) as an ordinary differential equation. With it you can try
-//! a controller, and compare an error bound with a measured error, before you have hardware:
+//! The rig models the experiment of Nguyen et al. (2018) as an ordinary differential equation. With
+//! it you can test a controller, and compare an error bound with a measured error, before you have
+//! hardware:
 //!
 //! ```text
 //! tau_c·tau_m' = N_A·u − tau_m                               current loop
 //! th2·w_p'     = tau_m − th1·w_p − tau_i                     motor and proximal pulley
 //! tau_i        = K_c·(phi_p − phi_d) + c_c·(w_p − w_d)       stretch of the cable
-//! tau_o        = B·tau_i − kappa_eta·eta − T0 + Σ g·effect   (6), (7), what is undeclared
+//! tau_o        = B·tau_i − kappa_eta·eta − T0 + Σ g·effect   (6), (7), undeclared effects
 //! J_d·w_d'     = tau_o − K·phi_d − c_d·w_d + load            joint against its spring (12)
 //! ```
 //!
 //! The equations are integrated with short sub-steps, velocities before positions. The rig is read
-//! as firmware reads hardware: torque through a lag, white noise and a converter, angles through
-//! encoders, and rates from filtered differences of the angles. The command reaches the drive after
-//! a delay of whole samples. The configuration can drift as it does in a conduit that is moved
+//! as firmware reads hardware: the torque through a lag, white noise and a converter, the angles
+//! through encoders, and the rates from filtered differences of the angles. The command reaches the
+//! drive after a delay of whole samples. The configuration can drift as in a moving conduit
 //! ([`Drift`]), and any effect of the catalogue can be switched on without the controller's
-//! knowledge. All random numbers follow from one seed.
+//! knowledge. One seed determines all random numbers.
 //!
 //! The paper does not state inertias, stiffnesses, drive gain or noise. They were chosen so that
 //! the errors of PI and of the adaptive law match the paper's Table 3. These two errors are
-//! therefore calibration; everything else that the rig shows is a result.
+//! therefore calibration; no other result was fitted.
 //!
 //! The crate is `no_std` and needs no heap, like the core that it uses, so the same trial can run
 //! on the controller's own processor. Features, all off by default: `serde`, `defmt`, `std`.
@@ -50,7 +51,7 @@ use sensor::{Encoder, EncoderState, TorqueSensor, TorqueSensorState};
 /// Maximum number of samples between a command and its effect on the drive.
 pub const MOST_DELAY: usize = 8;
 
-/// Most sub-steps of one step: a longer `dt` makes them longer.
+/// Maximum number of sub-steps in one step: with a longer `dt` each sub-step is longer.
 const MOST_SUB_STEPS: u32 = 4000;
 
 /// A rig with at most `N` undeclared effects.
@@ -85,7 +86,7 @@ pub struct Rig<T, const N: usize> {
     delay: usize,
 }
 
-/// What can be read from the rig at one sample: the true values and the measured ones.
+/// True and measured values of the rig at one sample.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -118,7 +119,7 @@ pub struct RigSample<T> {
     pub diverged: bool,
 }
 
-/// What a [`Rig`] remembers between samples. Made by [`Rig::start`].
+/// State of a [`Rig`] between samples, from [`Rig::start`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -138,7 +139,7 @@ pub struct RigState<T, const N: usize> {
     distal: EncoderState<T>,
     noise: Noise,
     commands: [T; MOST_DELAY],
-    /// What rounding has kept back of the time.
+    /// Rounding error of the time.
     carry: T,
     sample: RigSample<T>,
 }
@@ -171,7 +172,7 @@ impl<T: Real, const N: usize> Rig<T, N> {
     ///
     /// The effects read `Source::Input` (the proximal torque), `Source::Channel(0)` (the proximal
     /// pulley) or `Source::Channel(1)` (the distal pulley); their load is the proximal torque. An
-    /// effect that reads an acceleration gets the one of the previous sub-step, so the gain of an
+    /// effect that reads an acceleration gets that of the previous sub-step, so the gain of an
     /// inertia must stay below the inertia of the pulley that it reads.
     ///
     /// # Errors
@@ -235,8 +236,8 @@ impl<T: Real, const N: usize> Rig<T, N> {
 
     /// Advances by `dt` \[s\] and reads the sensors.
     ///
-    /// If the command is not finite, the drive keeps the last one. A `dt` that is not positive and
-    /// finite changes nothing.
+    /// If the command is not finite, the drive keeps the last command. A `dt` that is not positive
+    /// and finite changes nothing.
     pub fn step(&self, state: &mut RigState<T, N>, command: T, dt: T) -> RigSample<T> {
         self.step_with_load(state, command, T::zero(), dt)
     }
@@ -333,7 +334,7 @@ impl<T: Real, const N: usize> Rig<T, N> {
 }
 
 impl<T: Real, const N: usize> RigState<T, N> {
-    /// Adds dt, compensated: at 1 kHz a plain `f32` clock would drift within minutes.
+    /// Adds dt with compensation: at 1 kHz a plain `f32` clock would drift within minutes.
     fn tick(&mut self, dt: T) {
         let step = dt - self.carry;
         let time = self.sample.time + step;
@@ -344,7 +345,7 @@ impl<T: Real, const N: usize> RigState<T, N> {
     }
 }
 
-/// How many sub-steps there are in a step: none longer than wanted, within rounding.
+/// Number of sub-steps in a step: none is longer than configured, within rounding.
 fn sub_steps<T: Real>(ratio: T) -> u32 {
     let wanted = (ratio - T::from_f64(1e-3)).ceil();
     match wanted.to_u32() {

@@ -1,4 +1,4 @@
-//! Noise from a seed: the rig's own generator, with the same output on every machine.
+//! Noise from a seed, by the rig's own generator: the same output on every machine.
 
 use bowden::Real;
 
@@ -18,7 +18,7 @@ use bowden::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Noise {
     state: u64,
-    /// Deviates come in pairs; the second one is still to come from the state that is here.
+    /// Deviates are generated in pairs; this state yields the second deviate of a pair.
     spare: Option<u64>,
 }
 
@@ -26,7 +26,7 @@ pub struct Noise {
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 /// 2^-53.
 const LEAST: f64 = 1.0 / 9_007_199_254_740_992.0;
-/// Pairs to try before giving up; each fails with probability 1 − pi/4.
+/// Maximum number of pairs to try; each fails with probability 1 − pi/4.
 const MOST_TRIES: u32 = 64;
 
 impl Noise {

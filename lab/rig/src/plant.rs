@@ -13,12 +13,12 @@ use bowden::{Error, Real};
 pub(super) struct Plant<T, const N: usize> {
     config: RigConfig<T>,
     shape: BoucWen<T>,
-    /// The first `len` count; the rest add nothing.
+    /// The first `len` effects count; the others add nothing.
     undeclared: [Term<T>; N],
     len: usize,
 }
 
-/// All that moves.
+/// The moving state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -126,7 +126,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         self.undeclared.get(..self.len).unwrap_or(&self.undeclared)
     }
 
-    /// One sub-step of length `h`; whether everything stayed finite.
+    /// One sub-step of length `h`; returns whether everything stayed finite.
     #[inline]
     pub(super) fn step(&self, state: &mut PlantState<T, N>, command: T, load: T, h: T) -> bool {
         let c = &self.config;
@@ -191,7 +191,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         moved
     }
 
-    /// The distal torque: the transmission, then the effects as a model has them.
+    /// The distal torque: the transmission, then the effects as in a model.
     #[inline]
     fn output(&self, state: &mut PlantState<T, N>, input: Motion<T>, h: T) -> T {
         let (b, kappa_eta, t0) = state.configuration;

@@ -19,23 +19,23 @@ use bowden::Real;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reference<T> {
-    /// Where the task rests, or its mean \[N·m\].
+    /// The resting value or the mean \[N·m\].
     mean: T,
     task: Task<T>,
     ramp: T,
 }
 
-/// What is added to the mean.
+/// The part that is added to the mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Task<T> {
     /// Amplitude \[N·m\] and angular frequency \[rad/s\].
     Tones([(T, T); 2]),
-    /// Once a second up to this \[N·m\] and down again.
+    /// A push-off of this height once per second \[N·m\].
     Push(T),
 }
 
-/// When a push-off begins, is highest and has ended \[s\], in a cycle of one second.
+/// Start, peak and end of a push-off \[s\], in a cycle of one second.
 const PUSH: [f64; 3] = [0.2, 0.5, 0.65];
 
 impl<T: Real> Reference<T> {
@@ -99,7 +99,7 @@ impl<T: Real> Reference<T> {
 
     /// The reference, shifted and scaled to stay between two values \[N·m\].
     ///
-    /// Numbers that are not finite, or not in order, change nothing.
+    /// If the numbers are not finite or not in ascending order, nothing changes.
     ///
     /// ```
     /// use bowden_rig::Reference;
@@ -127,7 +127,7 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// The greatest value \[N·m\].
+    /// The largest value \[N·m\].
     #[must_use]
     pub fn maximum(&self) -> T {
         match &self.task {
@@ -136,7 +136,7 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// The least value \[N·m\].
+    /// The smallest value \[N·m\].
     fn minimum(&self) -> T {
         match &self.task {
             Task::Tones(tones) => tones.iter().fold(self.mean, |sum, (a, _)| sum - *a),
@@ -144,7 +144,7 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// The greatest magnitude \[N·m\], whatever its sign.
+    /// The largest magnitude \[N·m\].
     ///
     /// ```
     /// use bowden_rig::Reference;

@@ -1,4 +1,4 @@
-//! What firmware sees: torque through a converter, angles through an encoder.
+//! What firmware reads: torque through a converter, angles through an encoder.
 
 use super::{Noise, RigConfig};
 use bowden::effect::Motion;
@@ -53,7 +53,7 @@ impl<T: Real> TorqueSensorState<T> {
     }
 }
 
-/// An encoder, and the rates that a firmware derives from it.
+/// An encoder, and the rates that firmware derives from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Encoder<T> {
