@@ -203,8 +203,7 @@ impl<T: Real> IterativeLearning<T> {
         learning!(gain, limit, lead, half_width, T::ZERO)
     }
 
-    /// The same learning with forgetting: each cycle removes this share (0 to 1) of each learned
-    /// value.
+    /// The same learning, but each cycle removes a share (0 to 1) of each learned value.
     ///
     /// With forgetting, values that do not repeat decay, and an error remains.
     ///
