@@ -5,7 +5,7 @@
  *
  * Error as a share of the output's standard deviation: fit 7.01 %, held out 10.83 %.
  * Held-out error sample by sample, with the rates below: 10.74 %.
- * Not identified: gain (held at 2·sigma·kappa_eta·rho by --invertible).
+ * Not identified: gain (fixed at 2·sigma·kappa_eta·rho by --invertible).
  * Not identified: sigma (at its lower bound).
  * Not identified: n (at its lower bound).
  * Feed-forward: yes.

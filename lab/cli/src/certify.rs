@@ -1,4 +1,4 @@
-//! `bowden certify`: gains in, certificates out.
+//! `bowden certify`: certificates for gains.
 
 use super::{outputs, Failure};
 use crate::view::{certificates, proof, Width};

@@ -1,4 +1,4 @@
-//! `bowden completions`: what a shell needs to complete subcommands and options.
+//! `bowden completions`: a shell script that completes subcommands and options.
 
 use super::{Arguments, Failure};
 use clap::{Args, CommandFactory as _};

@@ -1,4 +1,4 @@
-//! `bowden design`: an identified model in, gains out.
+//! `bowden design`: gains from an identified model.
 
 use super::{outputs, Failure};
 use crate::view::design::{json, text};

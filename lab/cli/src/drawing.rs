@@ -1,4 +1,4 @@
-//! What `identify` and `validate` draw: a page, or one figure.
+//! The page or the single figure that `identify` and `validate` draw.
 
 use bowden_lab::facts::{Figures, Source};
 use bowden_page::{figure, Figure, Provenance};

@@ -1,4 +1,4 @@
-//! `bowden help`: of a subcommand, or the words of the ledger.
+//! `bowden help`: help for a subcommand, or the terms of the output.
 
 use super::{Arguments, Failure};
 use crate::view::terms::TERMS;

@@ -1,8 +1,7 @@
 //! The program `bowden`: its subcommands, one file each, and its views.
 //!
-//! A subcommand asks one question of [`bowden_lab::facts`] or [`bowden_trials::facts`] and hands
-//! the answer to a [`view`] or to `bowden_page`. No fit runs and no figure is computed in this
-//! package.
+//! A subcommand calls one function of [`bowden_lab::facts`] or [`bowden_trials::facts`] and passes
+//! the answer to a [`view`] or to `bowden_page`. This package runs no fit and computes no number.
 
 mod certify;
 mod check;

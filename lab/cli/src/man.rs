@@ -1,4 +1,4 @@
-//! `bowden man`: the manual pages, made from what `--help` says.
+//! `bowden man`: the manual pages, generated from the texts of `--help`.
 
 use super::{Arguments, Failure};
 use clap::{Args, Command, CommandFactory as _};

@@ -1,4 +1,4 @@
-//! The files that a command writes: none over another of its files, all or none.
+//! The files that a command writes: no file overwrites another one, and all are written or none.
 
 use super::Failure;
 use std::io::Write;

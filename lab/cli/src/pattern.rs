@@ -1,7 +1,7 @@
 //! The files of a pattern such as `runs/*.csv`.
 //!
-//! The crate `glob` matches names; its walk is not used, as it panics at a name that is not
-//! UTF-8. Such a name is matched with a replacement character for what cannot be read in it.
+//! The crate `glob` matches names. Its directory walk is not used, because it panics at a name that
+//! is not UTF-8. Such a name is matched with a replacement character for each unreadable part.
 
 use super::Failure;
 use bowden_lab::facts::is_header_of_vector;

@@ -1,4 +1,4 @@
-//! `bowden power`: what would have been found on this record.
+//! `bowden power`: the effects that the search would have found in this record.
 
 use super::progress::{progress, telling};
 use super::reading::{file, Reading};

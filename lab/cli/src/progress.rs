@@ -1,9 +1,9 @@
-//! The progress bar on stderr: what is being done, its share of the whole, and a forecast.
+//! The progress bar on stderr: the present step, its share of the whole, and a forecast.
 //!
-//! Nobody knows beforehand how many turns a search takes. The shares of the steps are a choice,
-//! not measured; each further turn of the search is given a third of what is left of the search's
-//! own part, so that the bar never runs backwards and never waits at its end. The forecast is as
-//! rough as the shares are.
+//! The number of rounds of a search is not known in advance. The shares of the steps are a choice,
+//! not measured. Each further round of the search gets a third of the remaining part of the search,
+//! so the bar never moves backwards and never waits at its end. The forecast is as rough as the
+//! shares are.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;

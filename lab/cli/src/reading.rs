@@ -1,4 +1,4 @@
-//! What all commands have in common that read a record.
+//! Options that all commands that read a record have in common.
 
 use super::{pattern, Failure};
 use bowden_lab::facts::{Asked, Mode, Options, MOST_NAMES};

@@ -1,4 +1,4 @@
-//! What the arguments are, and a wrong one in one line.
+//! Parsing of the arguments, and one line for a wrong argument.
 
 use super::{Arguments, Failure};
 use clap::{Command, CommandFactory as _, FromArgMatches as _};

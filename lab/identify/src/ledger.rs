@@ -134,7 +134,7 @@ pub struct Ledger {
     /// Other sets of terms that describe a mechanism as well as those found; none if the model is
     /// complete.
     pub descriptions: Vec<Description>,
-    /// A further dependence that no effect of the catalogue explains.
+    /// A further dependence that no effect in the catalogue explains.
     pub unknown: Option<Unknown>,
     /// Whether the blocks were long enough for p-values, in the last linearisation and whenever
     /// an effect was added.
@@ -329,7 +329,7 @@ pub struct CoarseChannel {
     pub names: Vec<String>,
 }
 
-/// A dependence of the residual that no effect of the catalogue explains.
+/// A dependence of the residual that no effect in the catalogue explains.
 #[derive(Debug, Clone)]
 pub struct Unknown {
     /// The variable that the residual depends on.

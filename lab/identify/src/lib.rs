@@ -1,6 +1,6 @@
-//! The lab: closes the loop between a baseline model and measured data.
+//! The lab: finds what a baseline model lacks, from measured data.
 //!
-//! A record walks through the rooms in this order, and a room uses only those before it:
+//! A record passes through the modules in this order, and a module uses only those before it:
 //!
 //! | room | what happens there |
 //! |---|---|

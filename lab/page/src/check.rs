@@ -1,4 +1,4 @@
-//! The page of `bowden validate`: a model on a record that it has not seen.
+//! The page of `bowden validate`: a model on another record.
 
 use crate::close::{loops_of_files, noise_of, of_files, over_all, parts};
 use crate::document::{data, page, table, Opening, Provenance, Section};
@@ -146,7 +146,7 @@ fn reasons(facts: &CheckFacts) -> Markup {
             p {
                 "The residual depends on " (one.words) ": a curve over it removes "
                 (format!("{:.0}", 100.0 * one.share)) " % of the squared error ("
-                @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: the residual is correlated for too long" }
+                @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: the correlation time of the residual is too long" }
                 ")."
             }
         }

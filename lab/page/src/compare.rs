@@ -284,7 +284,7 @@ fn line_of(line: &Line, of: fn(&Row) -> f64) -> impl Iterator<Item = [f64; 2]> +
 
 fn following(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
     let title = format!("{}: output", line.controller);
-    let text = format!("Reference and output torque under {}.", line.controller);
+    let text = format!("Reference and output torque with {}.", line.controller);
     Chart::new(id, &title, &text, x, y)
         .low()
         .line("reference", line_of(line, |row| row.reference))
@@ -296,7 +296,7 @@ fn following(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
 fn tracking_error(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
     let title = format!("{}: error", line.controller);
     let text = format!(
-        "Output minus reference under {}; rms {:.4} N·m over the steady part.",
+        "Output minus reference with {}; rms {:.4} N·m over the steady part.",
         line.controller, line.first.steady.rmse_true
     );
     Chart::new(id, &title, &text, x, y)
@@ -308,7 +308,7 @@ fn tracking_error(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
 
 fn torques(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
     let title = format!("{}: both pulleys", line.controller);
-    let text = format!("Proximal and distal torque under {}.", line.controller);
+    let text = format!("Proximal and distal torque with {}.", line.controller);
     Chart::new(id, &title, &text, x, y)
         .low()
         .line("before", line_of(line, |row| row.tau_i))

@@ -1,4 +1,4 @@
-//! The frame of every page: head, skip link, contents, sections, where it came from.
+//! The frame of every page: head, skip link, contents, sections, origin.
 
 use bowden_lab::facts::Source;
 use maud::{html, Markup, PreEscaped};

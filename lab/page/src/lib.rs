@@ -1,4 +1,4 @@
-//! What `bowden` has found as one HTML page, and individual figures as SVG.
+//! The results of `bowden` as one HTML page, and individual figures as SVG.
 //!
 //! A page is a view: it reads [`bowden_lab::facts`] and [`bowden_trials::facts`] and computes no
 //! figure. It is complete in itself (styles and figures are inline, nothing is loaded, no script

@@ -1,4 +1,4 @@
-//! Names with units, and estimates, as all pages write them.
+//! The format of names with units and of estimates on all pages.
 
 use bowden_lab::facts::{number, with_interval, Parameter};
 

@@ -1,4 +1,4 @@
-//! The rig's own open-loop bench record, and what the lab makes of it.
+//! The rig's own open-loop bench record, and its identification.
 //!
 //! A multisine on the drive and another, slower one on the joint: the torque covers
 //! what the reference will ask for, and the joint's angle does not follow from the

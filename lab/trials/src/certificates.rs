@@ -1,4 +1,4 @@
-//! Certificates of a setup's laws: what can be promised, and what it rests on.
+//! Certificates for the control laws of a setup, with their assumptions.
 
 use super::lineup::RATE;
 use super::setup::Setup;
@@ -115,7 +115,7 @@ fn tightest(law: &str, found: Result<Tightest<f64>, Error>) -> Promise {
 }
 
 /// What the machine-checked box assumes: a reference and a disturbance at rest.
-const RESTING: &str = "lag form at 1 kHz, |D| <= 8 N·m at rest, g 20 %";
+const RESTING: &str = "lag form at 1 kHz, constant |D| <= 8 N·m, g 20 %";
 const RESTING_DISTURBANCE: f64 = 8.0;
 
 /// The law of the proofs: the setup's gains in lag form, g = alpha·beta_hat in 0.8..=1.2.

@@ -1,4 +1,4 @@
-//! What a rig's data sheet says of its drive, and the observer that is made of it.
+//! The nominal parameters of a rig's drive, and the observer that is built from them.
 
 use super::setup::ObserverGains;
 use bowden::control::{DisturbanceObserver, NominalPlant};

@@ -1,4 +1,4 @@
-//! Decimals rounded in a direction: `format!` rounds to the nearest one.
+//! Decimals rounded up or down; `format!` rounds to the nearest one.
 
 /// Which way a decimal may differ from its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

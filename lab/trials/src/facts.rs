@@ -1,4 +1,4 @@
-//! What a comparison has found, as plain data; a view computes no figure of its own.
+//! The results of a comparison as plain data; a view computes no numbers.
 
 use super::certificates::named;
 use super::found::outcome;

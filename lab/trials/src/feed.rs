@@ -1,4 +1,4 @@
-//! What the bench has found, along the reference: a feed-forward without noise.
+//! The identified model along the reference: a feed-forward without noise.
 //!
 //! The motions that the effects read are derived from the reference, not measured: the
 //! joint's from its identified spring, the proximal pulley's from the stretch of the

@@ -1,5 +1,5 @@
-//! The loop closed through the controller: an effect that nobody declared is found on
-//! the bench and taken out of the tracking error.
+//! An undeclared effect is identified on the bench and removed from the tracking error by a
+//! feed-forward.
 
 use super::bench::{identify, record, Identified};
 use super::data_sheet::latency;

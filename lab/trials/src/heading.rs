@@ -1,4 +1,4 @@
-//! What the trials of a comparison were run under.
+//! The conditions of a comparison.
 
 use super::decimal::places;
 use super::gains::GainsFile;

@@ -1,4 +1,4 @@
-//! Learning beside a law, with its nominal plant turned round along the reference.
+//! Learning together with a law, with the inverse of its nominal plant along the reference.
 
 use super::data_sheet::{above_zero, nominal, shown};
 use super::setup::IterativeLearningGains;

@@ -1,4 +1,5 @@
-//! How much of a trial a command spends at its limits: there the limits rule the loop, and not the gains.
+//! The share of a trial in which the command is at a limit: there the limits determine the loop,
+//! not the gains.
 
 use bowden::control::Limits;
 use serde::Serialize;

@@ -1,4 +1,5 @@
-//! Who runs: the paper's four, and those without which the comparison would mislead.
+//! The controllers of a comparison: the four of the paper, and those without which the comparison
+//! would mislead.
 
 use super::data_sheet::{latency, observer};
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};

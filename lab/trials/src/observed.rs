@@ -1,4 +1,5 @@
-//! A disturbance observer beside a law, with its nominal plant turned round along the reference.
+//! A disturbance observer together with a law, with the inverse of its nominal plant along the
+//! reference.
 
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
 use bowden::effect::Motion;

@@ -1,7 +1,7 @@
 //! Gains, model and rig in one TOML form.
 //!
-//! Everything may be left out; what is left out is the paper's, or the reference rig's.
-//! An unknown key is an error with line and column.
+//! Every entry is optional; the defaults are those of the paper or of the reference rig. An unknown
+//! key is an error with line and column.
 //!
 //! ```toml
 //! [rig]                    # any field of `RigConfig`

@@ -35,7 +35,7 @@ pub struct Line {
     pub rmse_true: Spread,
     /// Rms of the measured error, steady part \[N·m\].
     pub rmse_measured: Spread,
-    /// Mean measured error as a share of the greatest reference.
+    /// Mean measured error as a share of the largest reference.
     pub share: f64,
     /// Largest true error of any trial, steady part \[N·m\].
     pub peak: f64,

@@ -1,5 +1,5 @@
-//! How far a data sheet may be off before the loop with the observer may swing, and before what is
-//! learned may grow from cycle to cycle.
+//! How far the parameters may deviate before the loop with the observer may become unstable, and
+//! before learning may diverge from cycle to cycle.
 
 use super::data_sheet::{nominal, shown};
 use super::lineup::{Laws, GAIT, RATE};

@@ -1,4 +1,4 @@
-//! One controller on one rig: the errors, and what the figures need.
+//! One controller on one rig: the errors, and the data for the figures.
 
 use super::feed::FeedForward;
 use super::learned::{Learned, Running as Learns};

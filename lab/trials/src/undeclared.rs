@@ -1,7 +1,7 @@
 //! Effects that are switched on in the rig without the controllers' knowledge.
 //!
-//! Shapes are in units of what the reference makes the joint do; the gain is such that
-//! the effect's contribution along the reference has the wanted rms.
+//! Shapes are in units of the joint's motion along the reference; the gain is chosen so that the
+//! effect's contribution along the reference has the requested rms value.
 
 use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity, CATALOGUE};
 use bowden::model::{Source, Term};

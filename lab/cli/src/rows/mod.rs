@@ -1,9 +1,9 @@
-//! `bowden identify --glob PATTERN --out ROWS.parquet`: each of many records by itself, one row a
-//! record.
+//! `bowden identify --glob PATTERN --out ROWS.parquet`: identifies each of many records separately
+//! and writes one row per record.
 //!
-//! Each record is closed by a process of its own, the program itself with `--row`: what one record
-//! does to its process, running out of memory included, becomes the row of that record alone, and
-//! the counts in a row are those of one record.
+//! A separate process identifies each record: the program itself with `--row`. A failure of this
+//! process, such as running out of memory, affects only the row of that record, and the counts in a
+//! row are those of one record.
 
 mod row;
 mod table;

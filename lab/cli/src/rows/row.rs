@@ -1,4 +1,4 @@
-//! One row: what is kept of a record, from its JSON.
+//! One row: the fields that are kept of a record, from its JSON.
 
 use bowden_lab::facts::RecordError;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! The measured loop in braille dots, for a terminal.
 //!
-//! Weighed: `textplots` draws its own frame, axes and colours around it; `drawille`, on which it
-//! stands, would save the few lines that set dots.
+//! Alternatives: `textplots` draws its own frame, axes and colours around the plot; `drawille`,
+//! which it uses, would save only the few lines that set dots.
 
 use bowden_lab::facts::{Segment, Signals};
 use std::fmt::Write as _;

@@ -40,7 +40,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
             AnsiColor::Green,
             format!("BOUND: {} ({})", bound(first), first.law),
         ),
-        None => (AnsiColor::Red, "NO USEFUL BOUND OF THE ERROR".to_owned()),
+        None => (AnsiColor::Red, "NO USEFUL ERROR BOUND".to_owned()),
     };
     heading(
         &mut out,
@@ -126,7 +126,7 @@ fn beyond(line: &Promise) -> String {
 const NOTES: [&str; 3] = [
     "range: the plant's alpha, zeta, c/K and latency all lie within the first percentage of the rig's values, and its wn lies within the second",
     "beta within p %: beta_hat is bounded to p % around 1/alpha, where alpha is N_A·B of the rig",
-    "the proofs cover the row `at rest` in f32, including rounding: with the gains in Table 2 of Nguyen et al. (2018), |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m, and if s and z start within their bounds (proofs/README.md)",
+    "the proofs cover the row `constant |D|` in f32, including rounding: with the gains in Table 2 of Nguyen et al. (2018), |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m, and if s and z start within their bounds (proofs/README.md)",
 ];
 
 /// The assumptions of each kind of bound.
@@ -157,10 +157,10 @@ fn assumptions(out: &mut String, all: &Certified, width: Width) {
 fn within(tolerance: &Tolerance, what: &str) -> String {
     let told = match (tolerance.share, &tolerance.refused) {
         (Some(share), _) if share <= 0.0 => {
-            format!("{what} with the rig's own plant; nothing is shown for other plants")
+            format!("{what} for the rig's own plant; nothing is proved for other plants")
         }
         (Some(share), _) => format!(
-            "{what} with every plant within {:.1} %, wn within {:.2} %",
+            "{what} for every plant within {:.1} %, wn within {:.2} %",
             100.0 * share,
             50.0 * share
         ),

@@ -137,7 +137,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     let mut out = String::new();
     let (colour, headline) = match check.verdict {
         Verdict::Holds => (AnsiColor::Green, "THE MODEL HOLDS"),
-        Verdict::GainOrOffsetMoved => (AnsiColor::Yellow, "GAIN OR OFFSET HAS MOVED"),
+        Verdict::GainOrOffsetMoved => (AnsiColor::Yellow, "GAIN OR OFFSET HAS CHANGED"),
         Verdict::CannotTell => (AnsiColor::Yellow, "INCONCLUSIVE RECORD"),
         Verdict::DoesNotHold => (AnsiColor::Red, "THE MODEL DOES NOT HOLD"),
         Verdict::DefectiveRecord => (AnsiColor::Red, "DEFECTIVE RECORD: repeat the measurement"),
@@ -181,7 +181,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     block(&mut out, width, "Outside", check.outside.iter().map(beyond));
     let depends = check.depends_on.iter().map(|one| {
         let tested = one.p.map_or_else(
-            || "not tested: the residual is correlated for too long".to_owned(),
+            || "not tested: the correlation time of the residual is too long".to_owned(),
             |p| format!("p {p:.1e}"),
         );
         format!(

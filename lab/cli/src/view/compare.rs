@@ -241,7 +241,7 @@ fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
 
 const CALIBRATED: &str = "The rig's drive gain and noise are chosen so that PI and the adaptive law match Table 3 of Nguyen et al. (2018). The rows pi and adaptive are therefore calibration, not validation.";
 
-const NOT_REPRODUCED: &str = "Not reproduced from the paper: an error of PIV below that of PI, and the scatter between trials.";
+const NOT_REPRODUCED: &str = "Two results of the paper are not reproduced: PIV better than PI, and the scatter between trials.";
 
 const OF_THE_REFERENCE_RIG: &str =
     "Rig parameters that you do not set are those of the reference rig.";
@@ -249,7 +249,7 @@ const OF_THE_REFERENCE_RIG: &str =
 const RINGING: &str = "Gains from `bowden design` can cause ringing on a heavy joint that swings.";
 
 const CHANGED: &str =
-    "The rig or the gains differ from those of Nguyen et al. (2018): their Table 3 is no reference for this comparison.";
+    "The rig or the gains differ from those of Nguyen et al. (2018): their Table 3 does not apply to this comparison.";
 
 const NOT_OF_A_GAIT: &str =
     "No bounds: they hold only for the reference signal of Nguyen et al. (2018).";
@@ -268,7 +268,7 @@ const OF_CONTROLLERS: [(&str, &str); 5] = [
 ];
 
 const OF_COLUMNS: [&str; 3] = [
-    "Columns: `measured` is the rms of the measured error, which Table 3 of Nguyen et al. (2018) lists; `% max` is this rms as a share of the greatest reference.",
+    "Columns: `measured` is the rms of the measured error, which Table 3 of Nguyen et al. (2018) lists; `% max` is this rms as a share of the largest reference.",
     "Columns: `effort` is the total variation of the command [units/s].",
     "Columns: `bound` is the proved bound of the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
 ];

@@ -1,4 +1,4 @@
-//! Output of `bowden compare --effect`: the loop closed through the controllers.
+//! Output of `bowden compare --effect`: identified terms as a feed-forward of the controllers.
 
 use super::compare_rows::{conditions, row, trials};
 use super::layout::{block, heading as headline, prose, Columns, Width};

@@ -78,7 +78,7 @@ fn answer(out: &mut String, designed: &Designed, width: Width) {
 fn certifies(designed: &Designed) -> String {
     match designed.certifies() {
         Certifies::Proves => {
-            "`bowden certify GAINS.toml` proves the bound, roundings included.".to_owned()
+            "`bowden certify GAINS.toml` proves the bound, including rounding errors.".to_owned()
         }
         Certifies::NamesWhatFails => {
             "`bowden certify GAINS.toml` names the gain or limit that prevents a proof.".to_owned()
@@ -126,7 +126,7 @@ fn plant(designed: &Designed) -> [String; 3] {
     };
     let range = match b.output {
         Some([low, high]) => format!("within {} to {} N·m", short(low), short(high)),
-        None => "the record covers no torque in both directions".to_owned(),
+        None => "the record reaches no torque in both directions".to_owned(),
     };
     [
         format!(
@@ -221,7 +221,7 @@ fn details(designed: &Designed) -> Vec<String> {
             asked.least_real
         ),
         format!(
-            "Re L {:.2}: least real part of the open loop. Above -1, no sequence of slopes between zero and the design slope makes the loop unstable (circle criterion)",
+            "Re L {:.2}: smallest real part of the open loop. Above -1, no sequence of slopes between zero and the design slope makes the loop unstable (circle criterion)",
             designed.pi.margins.least_real
         ),
         format!(
@@ -231,7 +231,7 @@ fn details(designed: &Designed) -> Vec<String> {
             short(admissible.k_i_alone)
         ),
         "the plant consists of the transmission and the delay; it does not include the inertia or the spring of a joint".to_owned(),
-        "reference: no rate is guaranteed if the least slope is near or below zero".to_owned(),
+        "reference: no rate is guaranteed if the smallest slope is near or below zero".to_owned(),
         "slope: between B and B - kappa_eta·rho·max(1, 2·sigma), from the Bouc-Wen equation".to_owned(),
         "limits of the command: the range of the record; a faster reference needs inputs that move faster than those in the record".to_owned(),
         format!(

@@ -1,4 +1,4 @@
-//! The model for firmware: its errors there, and whether it is a feed-forward.
+//! The model for firmware: its errors in firmware, and whether it can be used as a feed-forward.
 
 use super::layout::{block, Width};
 use bowden_lab::facts::{

@@ -12,7 +12,7 @@ pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     heading(&mut out, width, ("bowden plan", record), (colour, &answer));
     if let Some(Planned { experiment, .. }) = &plan.planned {
         let words = format!(
-            "It takes {:.1} s. Its greatest speed is {:.2} times that of the record.",
+            "It takes {:.1} s. Its largest speed is {:.2} times that of the record.",
             experiment.seconds, experiment.speed
         );
         prose(&mut out, width, &words);

@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 
 /// The method, in one sentence.
-const SIMULATED: &str = "each effect, with the middle one of its trial shapes, is added to the last model's prediction and to the residual under circular shifts and changes of sign; each trial is a whole identification, with the search, its refits and its tests; an effect is found if its family is named or among the alternatives";
+const SIMULATED: &str = "each effect, at the middle one of its trial shapes, is added to the last model's prediction and to the residual, which is shifted circularly and changed in sign; each trial is a complete identification, with the search, its refits and its tests; an effect counts as found if its family is that of a term or of an alternative";
 
 #[derive(Serialize)]
 struct Whole<'a> {

@@ -1,4 +1,4 @@
-//! `bowden certify GAINS.toml`: what is proved of one's own gains.
+//! `bowden certify GAINS.toml`: the proof for the user's own gains.
 
 use super::layout::{block, heading, prose, Width};
 use anstyle::AnsiColor;

@@ -1,4 +1,4 @@
-//! What a run has found, for people: the answer, the record, the errors, the model, its use.
+//! The result of a run as text: the answer, the record, the errors, the model, its use.
 
 use super::curve;
 use super::hand_over;
@@ -145,7 +145,7 @@ fn headline(facts: &Facts) -> String {
         (Verdict::UnderExcited, 0) => {
             "UNDER-EXCITED RECORD: too little motion for an answer".to_owned()
         }
-        (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: perhaps missing {main}"),
+        (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: {main} may be missing"),
         (Verdict::UnmodelledDependence, _) => {
             let words = facts
                 .unknown

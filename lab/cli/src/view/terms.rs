@@ -35,8 +35,8 @@ p             Probability that chance alone explains as much, from the exact sig
               sixteen blocks. A term is significant if p is at most 0.01 divided by the number of
               families times channels.
 blocks improved
-              The number of the sixteen stretches of equal path on which the term lowers the error
-              when its coefficients are fitted on the other fifteen.
+              On how many of the sixteen blocks the term lowers the error, with its coefficients
+              fitted to the other fifteen.
 alternatives  Effects that explain this record equally well: each removes at least 90 % of what
               the term removes, and its error is at most twice as large. The simplest one is named.
 redundant     A part of the baseline model whose removal raises the held-out error by less than a
@@ -50,7 +50,7 @@ verdict       explained              the fit and held-out errors are within the 
               ambiguous              the record cannot separate a term from its alternatives
               unmodelled-dependence  the residual depends on a measured quantity, and no effect in
                                      the catalogue matches it
-              under-excited          too few independent stretches for a test: terms are proposals
+              under-excited          too few independent stretches for a test: terms are candidates
               not-transferable       the held-out error rises: the model fits this stretch only
               no-input-dependence    the input explains less than half of the output, or the files
                                      contradict each other

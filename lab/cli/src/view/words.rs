@@ -1,4 +1,4 @@
-//! Estimates and tables, as all reports write them.
+//! The format of estimates and tables in all reports.
 
 use bowden_lab::facts::{number, with_interval, Parameter};
 use comfy_table::{presets, CellAlignment, ContentArrangement, Table, TableComponent};

@@ -86,7 +86,7 @@ fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_ra
     // Too much integral gain for the nominal loop.
     assert_eq!(with("[observer]\nk_i = 3000.0\n"), None);
     let text = String::from_utf8(bowden(&["certify"]).stdout).unwrap();
-    assert!(text.contains("stable with every plant within"), "{text}");
+    assert!(text.contains("stable for every plant within"), "{text}");
 }
 
 /// The rig itself, with the joint's inertia and the cable before its hysteresis, where every number
@@ -136,12 +136,12 @@ fn what_is_learned_converges_for_a_data_sheet_that_is_off() {
     let tight = with("[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
     assert!(tight < own, "{tight} {own}");
     assert_eq!(with("[learning]\nlead = 0.0\nfrequency = 25.0\n"), None);
-    assert!(text(&[]).contains("converges with every plant within"));
+    assert!(text(&[]).contains("converges for every plant within"));
     let path = folder.path().join("setup.toml");
     std::fs::write(&path, "[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
     let tight = text(&["--gains", path.to_str().unwrap()]);
     assert!(
-        tight.contains("converges with the rig's own plant"),
+        tight.contains("converges for the rig's own plant"),
         "{tight}"
     );
 }

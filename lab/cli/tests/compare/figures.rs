@@ -119,7 +119,7 @@ fn the_table_says_what_is_not_reproduced_and_what_was_calibrated() {
     let text = String::from_utf8(output.stdout).unwrap();
     for said in [
         "calibration, not validation",
-        "Not reproduced from the paper: an error of PIV below that of PI",
+        "Two results of the paper are not reproduced: PIV better than PI",
         "Transient, the first 12 s",
         "0.5320   0.0134",
         "matched-pi",

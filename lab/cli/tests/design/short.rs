@@ -20,7 +20,7 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     let asked = ["--rate", "500", "--delay", "0.006"];
     let report = said(&[["design", &model].as_slice(), &asked].concat());
     assert!(
-        report.contains("the record covers no torque in both directions")
+        report.contains("the record reaches no torque in both directions")
             && report.contains("record a larger stroke")
             && report.contains("no certificate"),
         "{report}"

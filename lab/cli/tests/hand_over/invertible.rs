@@ -182,7 +182,7 @@ fn headline_parameters_summary_and_page_are_those_of_the_file() {
         ("n", t.n),
         viscous,
     ];
-    let of_numbers = |line: &&str| !line.contains(" = ") && !line.contains("is held");
+    let of_numbers = |line: &&str| !line.contains(" = ") && !line.contains("is fixed");
     let lines: Vec<&str> = parameters.lines().filter(of_numbers).collect();
     for (name, value) in all {
         let name = format!(" {name}");

@@ -134,9 +134,9 @@ const POLICY: &str = include_str!("../../../identify/src/search/policy.rs");
 #[test]
 fn the_page_of_the_thresholds_is_their_constants() {
     let mut page = String::from(
-        "# Thresholds of the search\n\nThe constants of `lab/identify/src/search/policy.rs`. Planted \
-         records are those of `operating_characteristics`. SSE is the squared error on the fit \
-         segment.\n\n| constant | value | meaning, and what set it |\n|---|---|---|\n",
+        "# Thresholds of the search\n\nThe constants in `lab/identify/src/search/policy.rs`. The \
+         planted records are those of `operating_characteristics`. SSE is the squared error on \
+         the fit segment.\n\n| constant | value | meaning and reason |\n|---|---|---|\n",
     );
     let mut words: Vec<&str> = Vec::new();
     for line in POLICY.lines() {

@@ -91,7 +91,7 @@ fn a_lead_of_a_model_that_leaves_much_is_no_question_of_clocks_alone() {
     assert!(!closed.sentence().contains("were both logged"));
     closed.says(&[
         "In the model the output precedes the input by about ",
-        "either the two were logged on different clocks, or",
+        "either the two were logged with different clocks, or",
     ]);
 }
 

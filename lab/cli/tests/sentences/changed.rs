@@ -59,7 +59,7 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
 #[test]
 fn an_output_that_comes_before_its_input_is_a_question_of_clocks() {
     let closed = spring((99.0, 0.0), 5).close(&[]);
-    closed.says(&["ms, which is not causal", "logged on one clock?"]);
+    closed.says(&["ms, which is not causal", "logged with the same clock?"]);
     let told = closed.sentence();
     let ms = told
         .split("The output precedes the input by about ")

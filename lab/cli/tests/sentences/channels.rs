@@ -50,7 +50,7 @@ fn asks(closed: &Closed, channel: &str, swapped_with: Option<&str>) {
     assert!(names.iter().any(|n| n == "viscous@phi_p"), "{apart}");
     assert_eq!(names.len(), 2, "{apart}");
     closed.says(&["evening.csv", "Correct the file first."]);
-    assert!(!closed.sentence().contains("one clock"));
+    assert!(!closed.sentence().contains("the same clock"));
 }
 
 #[test]

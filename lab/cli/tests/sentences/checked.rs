@@ -193,7 +193,7 @@ fn a_gain_that_has_moved_within_a_wide_limit_is_told() {
     says(
         &stiffer,
         &[
-            "Yet the gain has changed by a factor of 1.10",
+            "However, the gain has changed by a factor of 1.10",
             "with this correction the error would be",
             "has the rig changed, or is the motion different?",
         ],
@@ -284,7 +284,10 @@ fn a_motion_in_which_the_error_of_home_is_most_cannot_tell() {
     let bench = Bench::of(&disturbed(1.0, 1.0, 100_000));
     let same = bench.check(&disturbed_at(0.25, 1.0, 1.0, 200_000));
     assert_eq!(same["verdict"], "cannot-tell");
-    says(&same, &["which is no sign of a change", "a larger motion"]);
+    says(
+        &same,
+        &["which does not indicate a change", "a larger motion"],
+    );
 }
 
 #[test]

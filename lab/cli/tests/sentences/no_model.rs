@@ -56,7 +56,7 @@ fn a_model_that_misses_much_is_called_poor_and_by_how_much() {
     });
     let closed = rows.close(&[]);
     closed.says(&[
-        "No effect of the catalogue explains the residual of the baseline model, ",
+        "No effect in the catalogue explains the residual of the baseline model, ",
         " % of the output's standard deviation on the held-out segment.",
         "A model with an error of ",
         " of the output is poor.",

@@ -104,7 +104,7 @@ fn a_record_logged_otherwise_is_asked_about() {
         let own: Vec<f64> = rows.rows.iter().map(|row| row[TAU_O]).collect();
         rows.set(TAU_O, |i, _| own[i.saturating_sub(15)]);
     });
-    asks(&report, &["ms earlier", "logged on another clock?"]);
+    asks(&report, &["ms earlier", "logged with another clock?"]);
     let late = report["suspected_logging_error"]["seconds"]
         .as_f64()
         .unwrap();

@@ -1,7 +1,7 @@
 //! Loops over columns, compiled for the processor that they run on.
 //!
-//! Each element has the operations of the plain loop in their order, none of them fused, so
-//! that the result is the same to the last bit on every processor.
+//! Each element undergoes the operations of the plain loop in the same order, and none of them is
+//! fused. The result is therefore identical, bit for bit, on every processor.
 
 use pulp::{Arch, Simd, WithSimd};
 

@@ -1,5 +1,4 @@
-//! The linear algebra of the lab: each question in one place, with its tolerance as a
-//! parameter.
+//! The linear algebra of the lab: each operation in one place, with its tolerance as a parameter.
 //!
 //! | question | answer |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What a column has that nothing in a set of columns can imitate.
+//! The part of a column that no combination of a set of columns can reproduce.
 
 use super::Stretch;
 use nalgebra::{DMatrix, DVector};

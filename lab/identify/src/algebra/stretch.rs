@@ -1,8 +1,9 @@
-//! A column that is zero outside of one stretch of its grid.
+//! A column that is zero outside one stretch of its grid.
 //!
-//! Several files lie behind each other on one grid. What belongs to one of them, such as the
-//! slope in its state at the start, is zero on all others: it is kept, filtered and multiplied
-//! on its own samples alone. A column of a single file is one stretch from end to end.
+//! Several files follow one another on one grid. A column that belongs to one file, such as the
+//! derivative with respect to its initial state, is zero on all other files. It is therefore
+//! stored, filtered and multiplied only on its own samples. A column of a single file is one
+//! stretch from end to end.
 
 use super::lanes;
 use nalgebra::DVector;

@@ -1,4 +1,4 @@
-//! The model that is checked, and what its file says of where it came from.
+//! The model that is validated, and the statements of its file about its origin.
 
 use crate::export::clockwork::counts_from_the_start;
 use crate::export::ModelFile;

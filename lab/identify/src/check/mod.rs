@@ -1,8 +1,8 @@
 //! Does a model still hold on the next record of the same rig?
 //!
-//! Nothing is refitted: the model of a file runs on a record that it has never seen, behind
-//! the filter that it was fitted behind. Then its gain and offset alone are fitted. The error
-//! of each stands beside the one that the model came with, on the held-out part of its own record.
+//! Nothing is refitted: the model of a file runs on a record that was not used to fit it, with the
+//! filter of its fit. Then only a gain and an offset are fitted. Both errors are compared with the
+//! error of the model on the held-out part of its own record.
 //!
 //! **What counts.** There is no fit segment: all of the record is unseen. What came before it
 //! is unknown, though. The hysteresis starts in the middle (eta = 0) and effects with memory
@@ -410,14 +410,15 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
     let about = &given.about;
     let mut notes = Vec::new();
     if about.units.is_empty() {
-        notes.push("the model's file states no units: the record's units are assumed".to_owned());
+        notes
+            .push("the model file states no units: the units of the record are assumed".to_owned());
     }
     match (about.cutoff_hz, cutoff) {
         (Some(own), Some(cutoff)) if own != cutoff => notes.push(format!(
-            "the model was fitted at a cut-off of {own} Hz: its own error is not exactly comparable"
+            "the model was fitted with a cut-off of {own} Hz: its own error is not exactly comparable"
         )),
         (None, None) => notes.push(
-            "the model's file states no cut-off: it is derived from this record's input; --cutoff sets it".to_owned(),
+            "the model file states no cut-off: it is derived from the input of this record; --cutoff sets it".to_owned(),
         ),
         _ => {}
     }

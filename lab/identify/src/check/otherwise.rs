@@ -1,9 +1,10 @@
-//! A record that the model would hold on had one of its columns been logged otherwise.
+//! Logging errors: a record on which the model would hold if one of its columns had been logged
+//! correctly.
 //!
-//! A sensor that is turned round, degrees in place of radians, two columns in each other's place, an
-//! output that comes late: each makes a sound model fail, and what it then misses depends on
-//! something that was measured, which blames the rig. Each is undone in turn; where the model
-//! then holds, with gain and offset refitted, that is asked about first.
+//! A sensor with the opposite sign, degrees instead of radians, two swapped columns, a delayed
+//! output: each of these makes a correct model fail. The residual then depends on a measured
+//! variable, which seems to blame the rig. Each is undone in turn; where the model then holds, with
+//! gain and offset refitted, that is asked about first.
 
 use super::given::{Given, Seen};
 use super::play::{rms, Played};

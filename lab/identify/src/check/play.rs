@@ -51,7 +51,7 @@ impl Played {
         };
         let data = data.with_rows(|row| row >= from);
         match data.split.fit.len() < FEWEST {
-            true => Err("defects and gaps leave too little of the record".to_owned()),
+            true => Err("too little of the record remains without defects and gaps".to_owned()),
             false => Ok(Self { data, model, from }),
         }
     }

@@ -1,5 +1,5 @@
-//! A hysteresis that is ballast: over the record its state is a line in the input, and its gain
-//! is large only because those of spring and offset cancel it.
+//! A redundant hysteresis: over the record its state is a linear function of the input, and its
+//! gain is large only because the gains of a spring and an offset cancel it.
 //!
 //! Such a part explains nothing, and outside the recorded motion the gains no longer cancel.
 

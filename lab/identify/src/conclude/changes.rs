@@ -1,5 +1,4 @@
-//! What a held-out part shows that the fit could not see: a rig that changed, or clocks that
-//! are apart.
+//! What only the held-out part shows: a rig that has changed, or clocks that differ.
 
 use super::errors::RISES;
 use super::final_fit::FinalFit;

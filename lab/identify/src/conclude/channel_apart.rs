@@ -1,8 +1,8 @@
-//! A channel that was logged otherwise in one of several files: it counts the other way there, or
-//! two channels stand in each other's place.
+//! A channel that was logged differently in one of several files: it has the opposite sign there,
+//! or two channels are swapped.
 //!
-//! An effect of that channel then has another sign, or another place, in that file. One gain for
-//! all files is near zero, and what is missing is put down to other effects.
+//! An effect of that channel then has another sign, or another channel, in that file. A common gain
+//! for all files is near zero, and the search attributes the missing output to other effects.
 
 use super::final_fit::FinalFit;
 use crate::fit::Segments;

@@ -1,4 +1,4 @@
-//! Which motion would show a parameter that the record leaves open.
+//! The motion that would identify a parameter that the record does not identify.
 
 use super::by_file::rows_of;
 use crate::fit::Solution;
@@ -47,9 +47,11 @@ pub(crate) fn of_role(solution: &Solution, role: Role) -> &'static str {
         Role::Rho => "reversals at several amplitudes, the smallest well inside the knee",
         Role::Sigma => "full strokes past the knee, then slow reversals of several sizes",
         Role::N => "slow full strokes that dwell near the knee",
-        Role::Eta0 { .. } => "a full stroke just before the record; it belongs to this record only",
+        Role::Eta0 { .. } => {
+            "a full stroke just before the record; this parameter belongs to this record only"
+        }
         Role::Start { .. } => {
-            "a known motion just before the record; it belongs to this record only"
+            "a known motion just before the record; this parameter belongs to this record only"
         }
         Role::Origin { .. } => "strokes on both sides of the origin",
         Role::Shape { term, index } => {

@@ -1,5 +1,5 @@
-//! Files that no one model can describe, because in one of them the output is a multiple of what
-//! it is in the others: another sign, unit or calibration.
+//! Files that no single model can describe, because in one of them the output is a multiple of that
+//! in the others: another sign, unit or calibration.
 
 use super::by_file::{nrmse_by_file, rows_of};
 use super::final_fit::FinalFit;

@@ -1,9 +1,9 @@
-//! The final model: what the loop ended with, its parameters from all that is not held out.
+//! The final model: the result of the search, with parameters from all data that are not held out.
 //!
-//! While the loop chooses, the stop-check segment judges, and no parameter may have seen it.
-//! Once nothing is left to be chosen it is data like the rest: a quarter more of them, and
-//! those that lie next to what is held out. So the chosen model is searched once more from
-//! where it is, on both segments. The held-out segment stays unseen.
+//! During the search the selection segment tests each model, so no parameter may be fitted to it.
+//! After the search it is data like the rest: a quarter more of them, next to the held-out segment.
+//! The chosen model is therefore fitted again from its present parameters, on both segments. The
+//! held-out segment stays unseen.
 
 use super::ballast::{has_parts_of_hysteresis, without_hysteresis, Part};
 use super::intervals::term_title;

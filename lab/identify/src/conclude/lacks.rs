@@ -1,4 +1,4 @@
-//! What the baseline model lacks, and what naming it has done to the error: the first sentence.
+//! The first sentence: what the baseline model lacks, and how the added terms change the error.
 
 use super::errors::{
     before_after, floors, held_out_ratio, is_noise, missed, names, percent, RISES,
@@ -82,7 +82,7 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     // What is left is more than noise: the model lacks something all the same.
     match floors(data, done).is_some_and(|errors| !is_noise(data, errors)) {
         true => format!(
-            "No effect of the catalogue explains the residual of the baseline model, which is {} of the output's standard deviation on the held-out segment.",
+            "No effect in the catalogue explains the residual of the baseline model, which is {} of the output's standard deviation on the held-out segment.",
             percent(missed(data, done))
         ),
         false => "This record shows no effect that the baseline model lacks.".to_owned(),

@@ -1,7 +1,7 @@
-//! Which mechanisms the baseline model lacks: what the missing force depends on.
+//! The mechanisms that the baseline model lacks: what the missing force depends on.
 //!
 //! The terms of one mechanism describe one curve. Another record of the same rig often gives other
-//! terms, and mostly the same mechanism.
+//! terms, but usually the same mechanism.
 
 use super::curve::Knot;
 use super::final_fit::FinalFit;

@@ -1,4 +1,4 @@
-//! What a search is worth: the final refit, intervals, the verdict, shares and traces.
+//! Evaluation of a search: the final refit, intervals, the verdict, shares and traces.
 
 mod ballast;
 pub mod by_file;

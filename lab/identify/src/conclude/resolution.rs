@@ -1,7 +1,9 @@
-//! Channels of a coarse sensor: what its steps do to the model, and which names they explain.
+//! Channels of a coarse sensor: the effect of its steps on the model, and the terms that they
+//! explain.
 //!
-//! The edges of the steps are true to a fraction of a sample. With a line through them in place
-//! of the steps the model gives another output: the difference is what the steps do to it.
+//! The edges of the steps are accurate to a fraction of a sample. With a line through the edges
+//! instead of the steps, the model gives a different output: the difference is the effect of the
+//! steps.
 
 use super::final_fit::FinalFit;
 use super::finding::Finding;

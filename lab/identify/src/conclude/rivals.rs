@@ -1,4 +1,4 @@
-//! What cannot be told apart, in words.
+//! Sentences about terms that the record cannot separate.
 
 use std::collections::HashSet;
 

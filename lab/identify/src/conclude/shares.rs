@@ -1,4 +1,4 @@
-//! What each part of a fitted model adds to its output.
+//! The contribution of each part of a fitted model to its output.
 
 use crate::fit::Solution;
 use crate::model::columns::{by_stage, early, raw_columns};

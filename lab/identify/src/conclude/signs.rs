@@ -1,4 +1,4 @@
-//! Gains that need a word: those whose sign misleads, and that of the tension.
+//! Remarks on gains: gains with a misleading sign, and the gain of the tension.
 
 use super::final_fit::FinalFit;
 use super::finding::Finding;

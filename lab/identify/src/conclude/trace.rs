@@ -1,9 +1,9 @@
-//! The signals of a run over time, as CSV: what was measured, what a model makes of it, and
-//! what each of its parts adds.
+//! The signals of a run over time, as CSV: the measured signals, the output of a model, and the
+//! contribution of each of its parts.
 //!
-//! One line for each sample of the estimation grid, on which least squares runs, and every
-//! column through the one filter: these are the numbers that the fit sees. The first and
-//! the last lines are those that it drops.
+//! There is one line for each sample of the estimation grid, on which least squares runs, and every
+//! column is filtered: these are the numbers that the fit uses. The fit drops the first and the
+//! last lines.
 
 use super::final_fit::FinalFit;
 use super::intervals::term_name;

@@ -1,11 +1,11 @@
-//! Parts of the baseline model that the data do not need.
+//! Redundant parts of the baseline model.
 //!
-//! By size and not by significance: on a long record every part is significant. Each part is
-//! taken out of the final model, the others are refitted, and where the error on held-out
-//! data grows by less than a tenth the part is not needed. Without its hysteresis a
-//! transmission is a line, gain and offset; effects that read the hysteresis state
-//! and stages before it go with it. Parts are judged one at a time: of two that can each stand in for the
-//! other both are listed, and one of them is needed.
+//! The criterion is size, not significance, because on a long record every part is significant.
+//! Each part is removed from the final model and the others are refitted. If the error on held-out
+//! data grows by less than a tenth, the part is redundant. Without its hysteresis a transmission is
+//! a line, gain and offset; effects that read the hysteresis state and stages before it go with it.
+//! Parts are judged one at a time: of two that can each stand in for the other both are listed, and
+//! one of them is needed.
 
 use super::ballast::without_hysteresis;
 use super::final_fit::FinalFit;

@@ -1,7 +1,7 @@
-//! One verdict for a whole run, and the sentence that goes with it.
+//! The verdict of a run, and its summary.
 //!
-//! The sentence is what somebody pastes into a report: it speaks of the delivered model, in
-//! the figures that stand above it, and says what the model must not be used for.
+//! The summary is written to be pasted into a report: it describes the delivered model with the
+//! numbers printed above it, and states what the model must not be used for.
 
 use super::changes::other_rig;
 pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISES};

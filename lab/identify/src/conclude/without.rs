@@ -1,4 +1,4 @@
-//! What a fit becomes without some of its rows.
+//! A fit without some of its rows.
 
 use crate::algebra::inverse;
 use nalgebra::{DMatrix, DVector};

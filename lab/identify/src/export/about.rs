@@ -1,4 +1,4 @@
-//! What a model's numbers mean and what they are worth.
+//! The meaning and the accuracy of a model's numbers.
 
 use super::ModelFile;
 use crate::conclude::intervals::{gain_unit, parameters, shape_unit, term_name, Parameter};

@@ -1,9 +1,9 @@
-//! What is handed over where the pretension has stepped: the rig as it is after the step.
+//! The exported model if the pretension has stepped: the rig after the step.
 //!
-//! A cable that has slipped, or a zero that was moved, stays so. The step itself belongs to its
-//! record, but what it leaves behind is the rig that the next record meets. A model that was
-//! fitted over both levels at once has an offset between them, and gains and a hysteresis that
-//! are bent towards the step.
+//! A cable that has slipped, or a zero that has moved, stays so. The step itself belongs to its
+//! record, but the state after the step is the rig of the next record. A model that was fitted over
+//! both levels at once has an offset between them, and gains and a hysteresis that are bent towards
+//! the step.
 
 use crate::fit::{Segments, Solution};
 use crate::problem::Prepared;

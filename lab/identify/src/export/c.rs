@@ -1,4 +1,5 @@
-//! The model as a C header that needs the library alone: its bytes, and what loads them.
+//! The model as a C header that needs only the library: its bytes, and the functions that load
+//! them.
 
 use super::c_names::{macros, prefix};
 use super::firmware::{bytes_in_double, postcard, CHECKSUM};

@@ -1,4 +1,4 @@
-//! Names of C from those of files and channels.
+//! C identifiers from the names of files and channels.
 
 use std::collections::BTreeSet;
 

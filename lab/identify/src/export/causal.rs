@@ -1,11 +1,10 @@
-//! What a model's error is on the chip: sample by sample, with causal rates.
+//! The error of a model on a microcontroller: sample by sample, with causal rates.
 //!
-//! The fit looks ahead: its velocities come from a filter without phase. Firmware cannot.
-//! Here the model that is handed over runs as it will run there: in `f32`, from a fresh
-//! state, at the record's own time stamps, on the columns as they were recorded, with the
-//! velocities and accelerations of [`Rates`]. Its output then takes the way of the measured
-//! one, through the same grids and filters, so that both errors are of the same rows and of
-//! the same band.
+//! The fit uses future samples: its velocities come from a zero-phase filter. Firmware cannot do
+//! this. Here the exported model runs as it will run in firmware: in `f32`, from a fresh state, at
+//! the record's own time stamps, on the columns as they were recorded, with the velocities and
+//! accelerations of [`Rates`]. Its output then takes the way of the measured one, through the same
+//! grids and filters, so that both errors are of the same rows and of the same band.
 
 use super::vector::load;
 use super::{ModelFile, MOST_TERMS};

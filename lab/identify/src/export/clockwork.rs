@@ -1,11 +1,11 @@
-//! Effects that belong to the record and not to the rig: they are not handed over.
+//! Effects that belong to the record and not to the rig: they are not exported.
 //!
-//! A tone has a phase, a drift a beginning, a pretension step a moment and a degradation a
-//! past: each counts from the first sample of the record. In firmware they would begin again
-//! with every switch-on, and be wrong. They are fitted so that they do not disturb the
-//! others; then the model that is handed over is fitted again without them, on the same
-//! segments: among the models that firmware can run it is the one that fits best. What a pretension
-//! step leaves behind is the rig's, though (`after_steps`).
+//! A tone has a phase, a drift a start, a pretension step a time and a degradation a history: each
+//! refers to the first sample of the record. In firmware they would restart at every power-on and
+//! be wrong. They are fitted so that they do not disturb the others; then the model that is handed
+//! over is fitted again without them, on the same segments: among the models that firmware can run
+//! it is the one that fits best. What a pretension step leaves behind is the rig's, though
+//! (`after_steps`).
 
 use super::ROOM;
 use crate::fit::Solution;

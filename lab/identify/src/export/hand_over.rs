@@ -1,4 +1,4 @@
-//! From the loop's final model to the one that is handed over to firmware.
+//! From the final model to the exported model for firmware.
 //!
 //! The final model says what is in the record. What runs on a chip is less: without effects
 //! that count from the record's first sample ([`clockwork`](crate::export::clockwork)), without a
@@ -37,7 +37,7 @@ const HELPS: f64 = 0.5;
 const NO_INVERSE: &str = "--invertible: it has no inverse";
 
 /// What `--invertible` does to the gain of a transmission on the bound.
-pub const TIED: &str = "held at 2·sigma·kappa_eta·rho by --invertible";
+pub const TIED: &str = "fixed at 2·sigma·kappa_eta·rho by --invertible";
 
 /// The model that is handed over, and what it is worth.
 #[derive(Debug, Clone)]
@@ -213,7 +213,7 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
     let clocks = terms.filter(|t| is_clockwork(&t.effect));
     let curve = lost_curve_name(data, solution).map(|effect| LeftOut {
         effect,
-        reason: "firmware has curves over a position, a load or a velocity only".to_owned(),
+        reason: "firmware supports only curves over a position, a load or a velocity".to_owned(),
     });
     clocks
         .map(|term| LeftOut {

@@ -130,7 +130,7 @@ fn unproved(file: &ModelFile) -> Option<String> {
     let n = three_digits(t.n);
     let has_room = ABOVE * t.sigma <= bound(t.gain, t.kappa_eta, t.rho);
     Some(match t.n <= MEASURED_N || has_room {
-        true => format!("with n = {n} tests show, but no proof, that the f32 step has one input for each output"),
+        true => format!("with n = {n} it is tested, but not proved, that the f32 step has one input for each output"),
         false => format!("with n = {n} and sigma {} close to its bound the f32 step may have more than one input for an output", three_digits(t.sigma)),
     })
 }
@@ -296,9 +296,9 @@ mod tests {
     fn what_is_not_proved_of_an_inverse_is_said() {
         let said = |n, sigma| caution(&file("torque", 7.0, sigma, n)).unwrap_or_default();
         assert_eq!(said(4.0, 0.7), "");
-        assert!(said(4.1, 0.7).contains("n = 4.10 tests show, but no proof,"));
-        assert!(said(10.0, 0.7).contains("tests show, but no proof,"));
-        assert!(said(20.0, 0.51).contains("tests show, but no proof,"));
+        assert!(said(4.1, 0.7).contains("n = 4.10 it is tested, but not proved,"));
+        assert!(said(10.0, 0.7).contains("it is tested, but not proved,"));
+        assert!(said(20.0, 0.51).contains("it is tested, but not proved,"));
         assert!(said(20.0, 0.52).contains("may have more than one input"));
         // A hysteresis that helps its gain needs no slope.
         assert_eq!(caution(&file("torque", -7.0, 0.7, 20.0)), None);

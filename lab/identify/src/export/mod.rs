@@ -1,8 +1,8 @@
-//! The model that is handed over, as a file: TOML for tools, Rust, C or postcard for firmware.
+//! The exported model as a file: TOML for tools; Rust, C or postcard for firmware.
 //!
-//! All hold the same numbers: TOML in `f64`, Rust and postcard rounded to `f32`, C both. What the
-//! core does not need, units, ranges and errors among it, is in the table `about`.
-//! A test vector goes with each file ([`vector`]).
+//! All files contain the same numbers: TOML in `f64`, Rust and postcard rounded to `f32`, C both.
+//! The table `about` contains the data that the core does not need, such as units, ranges and
+//! errors. A test vector accompanies each file ([`vector`]).
 
 mod about;
 mod after_steps;

@@ -1,10 +1,10 @@
-//! A test vector: samples of the record, and what the model must answer to them.
+//! A test vector: samples of the record, and the outputs that the model must reproduce.
 //!
-//! One CSV beside each model file. A firmware's own build of the model is right if it steps
-//! through the rows from a fresh state and gives the last columns, whatever its processor.
-//! Each row is one sample: `dt`, the input and its rates, the load, each channel and its
-//! rates, then the outputs of the model in `f32` and in `f64`. The samples are the shortest
-//! decimals of numbers of `f32`: read as `f32` or as `f64`, they are what each was given.
+//! There is one CSV file next to each model file. A firmware build of the model is correct if it
+//! steps through the rows from a new state and reproduces the last columns, on any processor. Each
+//! row is one sample: `dt`, the input and its rates, the load, each channel and its rates, then the
+//! outputs of the model in `f32` and in `f64`. The samples are the shortest decimals of numbers of
+//! `f32`: read as `f32` or as `f64`, they are what each was given.
 
 use super::{ModelFile, MOST_TERMS};
 use crate::problem::Prepared;

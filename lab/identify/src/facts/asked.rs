@@ -1,4 +1,4 @@
-//! How records are read, and the options that all questions to the search share.
+//! Options for reading records, and options that all searches have in common.
 
 use super::source::{read_with_source, Source};
 use crate::ledger::Ledger;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub struct Asked {
     /// Columns and the part of the record that are read.
     pub options: Options,
-    /// Cut-off of the one filter \[Hz\]; if absent it follows from the input's spectrum.
+    /// Cut-off of the filter \[Hz\]; default: from the input's spectrum.
     pub cutoff: Option<f64>,
     /// The baseline model; `bouc-wen` if the list is empty.
     pub declare: Vec<String>,
@@ -42,21 +42,21 @@ impl Asked {
     /// Reads a record.
     ///
     /// # Errors
-    /// The refusal, with its place.
+    /// The refusal, with its position in the file.
     pub fn read_or_refuse(&self, path: &Path) -> Result<Record, RecordError> {
         read(path, &self.options)
     }
 
-    /// Reads a record, with the hash of those very bytes: a file may change while it is read, and
-    /// what comes through a pipe comes once.
+    /// Reads a record together with the hash of the same bytes: a file may change while it is read,
+    /// and a pipe can be read only once.
     ///
     /// # Errors
-    /// The refusal, with its place.
+    /// The refusal, with its position in the file.
     pub fn read_with_source(&self, path: &Path) -> Result<(Record, Source), RecordError> {
         read_with_source(path, &self.options)
     }
 
-    /// Reads a record that is in memory; `label` stands for the name of its file.
+    /// Reads a record in memory; `label` replaces the name of its file.
     ///
     /// # Errors
     /// One line that names the label.
@@ -73,7 +73,7 @@ impl Asked {
         Self::all_of(paths, |path| self.read(path))
     }
 
-    /// The same, each with its hash.
+    /// The same, with the hash of each record.
     ///
     /// # Errors
     /// As [`read_together`](Self::read_together).
@@ -105,7 +105,7 @@ impl Asked {
         Ok(records)
     }
 
-    /// The same question with that cut-off \[Hz\].
+    /// The same options with this cut-off \[Hz\].
     pub(super) fn at(&self, cutoff: f64) -> Self {
         Self {
             cutoff: Some(cutoff),

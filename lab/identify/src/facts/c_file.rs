@@ -5,11 +5,12 @@ use crate::export::ModelFile;
 
 pub use crate::export::prefix as prefix_in_c;
 
-/// The C header of a model file: its bytes and what loads them, named after `name`,
-/// the stem of its file ([`prefix_in_c`]).
+/// The C header of a model file: its bytes and the functions that load them, named after `name`,
+/// the stem of the file name ([`prefix_in_c`]).
 ///
 /// # Errors
-/// One sentence on the first error in the text, a name that gives no prefix, or what the C interface has no room for.
+/// One sentence on the first error in the text, on a name that gives no prefix, or on a part that
+/// exceeds the capacity of the C interface.
 pub fn model_in_c(text: &str, name: &str) -> Result<String, String> {
     // The same refusals as of a model that is checked.
     Given::parse(text)?;

@@ -20,20 +20,20 @@ use crate::record::Record;
 use crate::search::policy::AT_FLOOR;
 use std::cell::Cell;
 
-/// A question to one or several records.
+/// A request for one or several records.
 #[derive(Debug, Clone)]
 pub struct Close {
     /// Columns, filter, baseline model and length of the search.
     pub asked: Asked,
-    /// Whether each file has gains of its own.
+    /// Whether each file has separate gains.
     pub own_gains: bool,
-    /// Whether the model that is handed over is fitted within the range that has an inverse.
+    /// Whether the exported model is fitted within the range that has an inverse.
     pub invertible: bool,
     /// Whether the models are requested as files.
     pub models: bool,
     /// Whether the signals over time are requested.
     pub trace: bool,
-    /// Whether what a page draws is requested: [`Figures`], and the models if there are any.
+    /// Whether the data of a page are requested: [`Figures`], and the models if there are any.
     pub figures: bool,
     /// Detail of each round.
     pub detail: Detail,
@@ -46,18 +46,18 @@ pub struct Close {
 pub struct Closed {
     /// What was found.
     pub facts: Facts,
-    /// The models that are handed over: one, or one for each file with gains of its own; empty if
-    /// neither models nor figures were requested, or if there is none.
+    /// The exported models: one, or one for each file with separate gains; empty if neither models
+    /// nor figures were requested, or if there is none.
     pub models: Vec<Handed>,
     /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
-    /// What a page draws, if requested.
+    /// The data of a page, if requested.
     pub figures: Option<Figures>,
     /// Cost of the run.
     pub cost: CostFacts,
 }
 
-/// A model that is handed over, with its test vector.
+/// An exported model, with its test vector.
 #[derive(Debug, Clone)]
 pub struct Handed {
     model: ModelFile,
@@ -101,7 +101,7 @@ impl Handed {
 }
 
 impl Close {
-    /// A question for the facts alone: no models, trace or figures. The meter starts now.
+    /// A request for the facts alone: no models, trace or figures. The meter starts now.
     #[must_use]
     pub fn new(asked: Asked) -> Self {
         Self {
@@ -130,8 +130,8 @@ impl Close {
         done
     }
 
-    /// The error of the delivered model, and that of the baseline model with input and output in each
-    /// other's place, where the output comes before the input and the second is half of the first.
+    /// The error of the delivered model, and that of the baseline model with input and output
+    /// swapped, if the output leads the input and the second error is half of the first.
     fn exchanged(&self, records: &[Record], done: &FinalFit) -> Option<[f64; 2]> {
         let data = &done.data;
         let is_much = done.rmse.fit > AT_FLOOR * data.noise_floor;
@@ -152,7 +152,7 @@ impl Close {
         (after < OTHER_CONFIGURATION * before).then_some([before, after])
     }
 
-    /// What each of several records says by itself, with the filter of all; empty where the search
+    /// What each of several records supports alone, with the common filter; empty if the search
     /// added nothing or was cut short.
     fn files_alone(&self, records: &[Record], cutoff: f64, ledger: &Ledger) -> Vec<FileAlone> {
         use rayon::prelude::*;
@@ -167,7 +167,7 @@ impl Close {
         records.par_iter().map(of).collect()
     }
 
-    /// Records on the grids of that cut-off.
+    /// Records on the grids for this cut-off.
     fn on_grids(&self, records: &[Record], cutoff: f64) -> Option<Prepared> {
         let asked = self.asked.at(cutoff);
         let (data, _) = asked.prepare_all(records, self.own_gains).ok()?;
@@ -175,11 +175,11 @@ impl Close {
     }
 }
 
-/// Closes the loop. `tell` receives one message a step.
+/// Identifies a model. `tell` receives one message per step.
 ///
 /// # Errors
-/// One line if the records cannot be prepared or the baseline model cannot be fitted; if a
-/// model is requested, also if nothing can be handed over.
+/// One line if the records cannot be prepared or the baseline model cannot be fitted; if a model is
+/// requested, also if no model can be exported.
 pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
     let asked = &question.asked;
     let mut meter = question.meter;
@@ -272,8 +272,8 @@ fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
         .collect()
 }
 
-/// A hint if the files do not seem to be of one configuration: `own` is the baseline model with
-/// gains of its own for each.
+/// A hint if the files do not seem to have the same configuration: `own` is the baseline model with
+/// separate gains for each file.
 fn hint(declared: &Solution, own: &Solution) -> Option<String> {
     let left = own.rmse.fit / declared.rmse.fit;
     (left < OTHER_CONFIGURATION).then(|| {

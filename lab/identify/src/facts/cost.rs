@@ -17,15 +17,15 @@ pub struct CostFacts {
 /// Wall time of each stage \[s\].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct StageSeconds {
-    /// Files become records.
+    /// Reading files into records.
     pub reading: f64,
     /// Uniform time, filters, grids.
     pub preparing: f64,
     /// The fit of the baseline model.
     pub fitting_baseline: f64,
-    /// The search for what the baseline model lacks.
+    /// The search for missing terms.
     pub searching: f64,
-    /// The final fit, what is handed over, intervals, the verdict.
+    /// The final fit, the exported model, intervals, the verdict.
     pub concluding: f64,
 }
 
@@ -63,7 +63,7 @@ impl StageSeconds {
     }
 }
 
-/// Measures a run stage by stage. Its first stage, the reading, begins with the meter.
+/// Measures a run stage by stage. The first stage, reading, begins when the meter starts.
 #[derive(Debug, Clone, Copy)]
 pub struct Meter {
     before: Counts,
@@ -84,15 +84,15 @@ impl Meter {
         }
     }
 
-    /// Adds the time since the last stage began to that stage, and begins another one.
+    /// Adds the elapsed time to the present stage, and begins the next one.
     pub(super) fn begins(&mut self, stage: Stage) {
         let now = Instant::now();
         *self.seconds.of(self.stage) += (now - self.begun).as_secs_f64();
         (self.stage, self.begun) = (stage, now);
     }
 
-    /// Follows the messages of a search: the first message begins the fit of the declared
-    /// model, the second one the search itself.
+    /// Follows the messages of a search: the first message begins the fit of the baseline model,
+    /// the second one the search itself.
     pub(super) fn told(&mut self) {
         match self.stage {
             Stage::Preparing => self.begins(Stage::FittingDeclared),

@@ -1,4 +1,4 @@
-//! What a page draws beyond the ledger: signals, and what the residuals say.
+//! The data that a page draws in addition to the results table: signals and residuals.
 
 use super::round::rounds_in_order;
 use crate::check::Check;
@@ -16,18 +16,19 @@ use crate::score::density::Spectrum;
 /// Maximum number of bins over a variable.
 const BINS: usize = 20;
 
-/// Everything that a page draws of a run; residuals come in pairs, before and after.
+/// All data that a page draws for a run; residuals come in pairs, before and after.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// The signals over time.
     pub signals: Signals,
-    /// The residuals over each variable that is measured or follows from what is measured.
+    /// The residuals over each measured or derived variable.
     pub over: Vec<Dependence>,
     /// The residuals' autocorrelation over all samples that count.
     pub autocorrelation: Autocorrelation,
     /// The residuals' spectra on the fit segment.
     pub spectrum: Spectrum,
-    /// What each round did on each block of the fit segment, those not delivered last.
+    /// The effect of each term on each block of the fit segment; terms that are not delivered come
+    /// last.
     pub blocks: Vec<BlockScores>,
 }
 
@@ -36,21 +37,21 @@ pub struct Figures {
 pub struct Dependence {
     /// The variable in words.
     pub words: String,
-    /// Its unit, where the record states it.
+    /// Its unit, if the record states it.
     pub unit: Option<String>,
     /// Bins in ascending order; the means of each are those before and after.
     pub bins: Vec<Bin>,
 }
 
-/// What a round did on each block.
+/// The effect of a term on each block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockScores {
-    /// Share of the block's squared error that the round removed; negative if it added to it.
+    /// Share of the block's squared error that the term removed; negative if it added error.
     pub removed: [f64; BLOCKS],
 }
 
 impl Figures {
-    /// What a page draws of a closed record and of a model with its name.
+    /// The data of a page for an identified record and a named model.
     ///
     /// # Errors
     /// One sentence if the parts of the model cannot be computed.
@@ -75,7 +76,7 @@ impl Figures {
         Ok(figures)
     }
 
-    /// What a page draws of a check.
+    /// The data of a page for a validation.
     ///
     /// # Errors
     /// One sentence if the parts of the model cannot be computed.

@@ -14,21 +14,21 @@ use crate::record::DefectKind;
 pub struct HandOverFacts {
     /// Names of its parts.
     pub effects: Vec<String>,
-    /// Parts of the final model that are not in it.
+    /// Parts of the final model that it does not contain.
     pub left_out: Vec<LeftOut>,
     /// Whether a fit within the range that has an inverse was requested.
     pub within_inverse: bool,
     /// Whether that fit ended on the bound of this range.
     pub on_inverse_bound: bool,
-    /// The model itself, if that fit is another than the final model.
+    /// The model itself, if this fit differs from the final model.
     pub model: Option<FinalFacts>,
-    /// Its errors as shares of the output's standard deviation.
+    /// Its errors, as shares of the output's standard deviation.
     pub nrmse: Segments,
-    /// The errors of the final model, likewise.
+    /// The errors of the final model, in the same form.
     pub as_fitted: Segments,
-    /// Its errors sample by sample with causal rates, likewise.
+    /// Its errors sample by sample with causal rates, in the same form.
     pub causal: Segments,
-    /// The same with play before the hysteresis, where the input's noise makes the error.
+    /// The same with a play in front of the hysteresis, if the noise of the input causes the error.
     pub calmed: Option<Calmed>,
     /// Time constant of the causal rates \[s\].
     pub time_constant: f64,
@@ -36,8 +36,8 @@ pub struct HandOverFacts {
     pub feed_forward: FeedForward,
 }
 
-/// What somebody must know of a model in firmware who reads nothing but the verdict: the fit has
-/// velocities without phase and a smooth input, a chip has not.
+/// The remark in the summary about the error in firmware: the fit has zero-phase velocities and a
+/// smooth input, but a microcontroller does not.
 pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     let errors = format!(
         "the held-out error is {} instead of {}",
@@ -63,7 +63,7 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     hand.is_off().then(said)
 }
 
-/// The error of a model that `--invertible` has changed, and that of the model without the bound.
+/// The error of a model that `--invertible` has changed, and the error of the unconstrained model.
 pub(super) fn price(hand: &HandOver) -> Option<String> {
     hand.is_another().then(|| {
         format!(
@@ -74,8 +74,8 @@ pub(super) fn price(hand: &HandOver) -> Option<String> {
     })
 }
 
-/// What comes before all else of a model that a constant would beat where it is used: with causal
-/// velocities and from a start of the hysteresis that no other record tells.
+/// The first sentence if, with causal velocities and an unknown initial hysteresis state, a
+/// constant would have a smaller error than the model.
 pub(super) fn useless(hand: &HandOver) -> Option<String> {
     let calmed = hand
         .calmed
@@ -90,7 +90,7 @@ pub(super) fn useless(hand: &HandOver) -> Option<String> {
     })
 }
 
-/// The columns whose spikes reach a model in firmware: no line stands in for them there.
+/// The columns whose spikes reach a model in firmware, where no line replaces them.
 fn spikes(data: &Prepared) -> String {
     let read = std::iter::once(&data.input).chain(&data.channels);
     let spoilt = |name: &str| {

@@ -1,4 +1,4 @@
-//! The facts of a closed record.
+//! The facts about an identified record.
 
 use super::hand_over::{price, useless, warning, HandOverFacts};
 use super::model::{FinalFacts, ModelFacts};
@@ -25,7 +25,7 @@ use crate::score::explains::{explained, segments_differ, Explained};
 /// Everything about one run.
 #[derive(Debug, Clone)]
 pub struct Facts {
-    /// The name of the record, or those of several.
+    /// The name of the record, or the names of several records.
     pub label: String,
     /// The record as it was read.
     pub record: RecordFacts,
@@ -35,40 +35,40 @@ pub struct Facts {
     pub declared: ModelFacts,
     /// The mechanisms that the baseline model lacks.
     pub lacks: Vec<Lack>,
-    /// What each of several files says by itself; empty for one file, or where nothing was added.
+    /// What each of several files supports alone; empty for one file, or if nothing was added.
     pub files_alone: Vec<FileAlone>,
     /// Whether the delivered model is complete.
     pub complete: Complete,
     /// The added effects, in order.
     pub rounds: Vec<RoundFacts>,
-    /// Later rounds that are not delivered: on left-out half-records the model does as well without
+    /// Later terms that are not delivered: on left-out half-records the model is as good without
     /// them.
     pub beyond: Vec<RoundFacts>,
-    /// Number of first rounds that lower the held-out error before one raises it.
+    /// Number of leading terms that lower the held-out error before one raises it.
     pub falls_up_to: usize,
-    /// The model that is delivered.
+    /// The delivered model.
     pub last: FinalFacts,
-    /// The model that is handed over, or the reason why none is.
+    /// The exported model, or the reason why there is none.
     pub hand_over: Result<HandOverFacts, String>,
     /// Rejected candidates.
     pub rejected: Vec<RejectedFacts>,
-    /// Declared parts that the data do not need.
+    /// Redundant parts of the baseline model.
     pub unneeded: Vec<Unneeded>,
-    /// The dependence that no effect of the catalogue explains.
+    /// The dependence that no effect in the catalogue explains.
     pub unknown: Option<UnknownFacts>,
     /// Standard deviation of the filtered output on each segment.
     pub deviation: Segments,
-    /// Whether these differ so much that percentages on one segment say little about another.
+    /// Whether these differ so much that percentages on two segments are not comparable.
     pub segments_differ: bool,
     /// Shares of the held-out output's variance.
     pub explains: Explained,
     /// Whether the output follows the integral of the input.
     pub integrates: bool,
-    /// Files in which the output is another multiple of the input than in the others.
+    /// Files in which the output has another gain or offset than in the others.
     pub apart: Vec<FileApart>,
-    /// A channel that was logged otherwise in one of the files.
+    /// A channel that was logged differently in one of the files.
     pub channel_apart: Option<ChannelApart>,
-    /// Files on which the final model is worse than the declared one.
+    /// Files on which the final model is worse than the baseline model.
     pub worse: Vec<Worse>,
     /// The requested number of effects, if it ended the search.
     pub stopped_by_request: Option<usize>,
@@ -89,7 +89,7 @@ pub struct Facts {
 pub enum Detail {
     /// Everything except the models of the single rounds.
     Ledger,
-    /// Also the model after each round, at the cost of one fit each.
+    /// Also the model after each term, at the cost of one fit each.
     EachRound,
 }
 
@@ -108,14 +108,14 @@ pub struct RejectedFacts {
     pub gate: Gate,
 }
 
-/// A dependence that no effect of the catalogue explains.
+/// A dependence that no effect in the catalogue explains.
 #[derive(Debug, Clone)]
 pub struct UnknownFacts {
     /// Name of the variable.
     pub variable: &'static str,
     /// The variable for people.
     pub words: String,
-    /// Its unit, where the record states it.
+    /// Its unit, if the record states it.
     pub unit: Option<String>,
     /// The channel that it is computed from.
     pub channel: String,
@@ -123,7 +123,7 @@ pub struct UnknownFacts {
     pub share: f64,
     /// Exact sign-flip p-value of the curve.
     pub p: f64,
-    /// Reduction of the SSE by the best one or two names over that by the curve.
+    /// Reduction of the SSE by the best one or two terms, divided by that by the curve.
     pub q: f64,
     /// The curve.
     pub curve: Vec<Knot>,
@@ -131,7 +131,7 @@ pub struct UnknownFacts {
     pub before: Segments,
     /// Rms errors after.
     pub after: Segments,
-    /// The sentence on it.
+    /// The sentence about it.
     pub sentence: String,
     /// Which models contain it.
     pub kept: &'static str,
@@ -159,9 +159,9 @@ impl UnknownFacts {
             curve: curve(&done.data, &done.solution),
             kept: match done.solution.structure.table.as_ref().and_then(Table::over) {
                 Some(_) => {
-                    "the final model contains the curve, the exported model one with fewer points"
+                    "the final model contains the curve; the exported model contains one with fewer points"
                 }
-                None => "the final model contains the curve, the exported model does not",
+                None => "the final model contains the curve; the exported model does not",
             },
             before: unknown.before,
             after: unknown.after,
@@ -205,7 +205,7 @@ impl Facts {
             Some(price) if is_model => {
                 words.push(price);
                 words.extend(in_firmware);
-                words.push("The rest describes the unconstrained model.".to_owned());
+                words.push("The rest of this text describes the unconstrained model.".to_owned());
                 words.push(sentence);
             }
             price => {
@@ -250,13 +250,13 @@ impl Facts {
         }
     }
 
-    /// The exported model, if `--invertible` has made it another than the final model.
+    /// The exported model, if `--invertible` has made it different from the final model.
     #[must_use]
     pub fn constrained(&self) -> Option<&FinalFacts> {
         self.hand_over.as_ref().ok()?.model.as_ref()
     }
 
-    /// The output of the model that is shown, as the sum of its parts.
+    /// The output of the reported model, as the sum of its parts.
     #[must_use]
     pub fn equation(&self) -> String {
         let (input, output) = (&self.record.input, &self.record.output);
@@ -273,7 +273,8 @@ impl Facts {
         format!("{output} = {}", parts.join(" + "))
     }
 
-    /// The model that a report describes: the constrained one, else the final one.
+    /// The model that a report describes: the constrained model if there is one, otherwise the
+    /// final model.
     #[must_use]
     pub fn shown(&self) -> &FinalFacts {
         self.constrained().unwrap_or(&self.last)

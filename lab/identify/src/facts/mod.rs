@@ -1,8 +1,8 @@
-//! What a run has found, as plain data: names, numbers, sentences and the bytes of files.
+//! The results of a run as plain data: names, numbers, sentences and the bytes of files.
 //!
-//! Every question that the program answers is asked here, and every figure of its answer is
-//! computed when the question is asked. A view (terminal, JSON) reads the fields: this is the
-//! only room that it uses, so what it prints cannot differ from what another view prints.
+//! Each subcommand has its function here, which computes every number of the answer. A view
+//! (terminal, JSON) only reads the fields and uses no other module, so two views cannot print
+//! different results.
 
 mod asked;
 mod c_file;

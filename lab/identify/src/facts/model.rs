@@ -32,17 +32,17 @@ pub struct ModelFacts {
 pub struct FinalFacts {
     /// Names of all its parts.
     pub effects: Vec<String>,
-    /// Whether the parameters have seen the stop-check segment as well.
+    /// Whether the parameters were fitted to the selection segment too.
     pub refitted: bool,
     /// Its parameters, gains first.
     pub parameters: Vec<Parameter>,
-    /// The name of each parameter for people: two ripples differ by their order.
+    /// The name of each parameter as printed: two ripples differ by their order.
     pub titles: Vec<String>,
     /// Number of leading parameters that are gains of one file.
     pub own_gains: usize,
-    /// Names of the gains that each file has of its own.
+    /// Names of the separate gains of each file.
     pub gain_names: [&'static str; 3],
-    /// Those gains; empty where the files have them in common.
+    /// Those gains; empty if they are common to all files.
     pub gains_by_file: Vec<GainsOfFile>,
     /// Rms errors in the output's unit.
     pub rmse: Segments,
@@ -123,7 +123,7 @@ pub(super) fn effects(data: &Prepared, solution: &Solution) -> Vec<String> {
         .collect()
 }
 
-/// The name of a parameter, with what tells two effects of one name apart.
+/// The name of a parameter, with the property that distinguishes two effects of the same name.
 fn title(done: &FinalFit, parameter: &Parameter) -> String {
     let term = parameter
         .term

@@ -1,6 +1,6 @@
-//! A number as all sentences and tables write it.
+//! The format of a number in all sentences and tables.
 
-/// A number with as many digits as its interval bears.
+/// A number with as many digits as its interval justifies.
 #[must_use]
 pub fn number(value: f64, half_width: Option<f64>) -> String {
     let digits = match half_width {
@@ -15,7 +15,7 @@ pub fn number(value: f64, half_width: Option<f64>) -> String {
     }
 }
 
-/// "1.10 ± 0.01", or the value alone where it has no interval.
+/// "1.10 ± 0.01", or the value alone if it has no interval.
 #[must_use]
 pub fn with_interval(value: f64, ci95: Option<[f64; 2]>) -> String {
     match ci95 {

@@ -20,13 +20,13 @@ use crate::record::Record;
 pub struct Plan {
     /// The experiment; `None` if none of the known motions would help.
     pub planned: Option<Planned>,
-    /// The verdict on the record and its sentence, where the model does not describe it: no motion that
-    /// determines its parameters mends that.
+    /// The verdict and its summary if the model does not describe the record: then no motion that
+    /// determines its parameters helps.
     pub undescribed: Option<String>,
-    /// Effects that the record confounds, each with the rivals from which the planned motion does not
-    /// separate it ("presliding from backlash"), each pair once.
+    /// Ambiguous effects, each with the alternatives that the planned motion does not separate from
+    /// it ("presliding from backlash"), each pair once.
     pub inseparable: Vec<String>,
-    /// Channels that such effects and their rivals read, where these are two.
+    /// Channels that such effects and their alternatives read, if there are two.
     pub together: Vec<[String; 2]>,
     /// Parameters that the record does not identify.
     pub unidentified: Vec<String>,
@@ -35,10 +35,10 @@ pub struct Plan {
 /// A planned experiment.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    /// How it moves, and what it is expected to show.
+    /// Its motion, and its expected result.
     pub experiment: Experiment,
-    /// Whether it separates effects that this record confounds; otherwise it is for
-    /// parameters that the record does not identify.
+    /// Whether it separates ambiguous effects; otherwise it is for parameters that the record does
+    /// not identify.
     pub confounded: bool,
     /// Its motion as CSV.
     pub csv: String,
@@ -93,7 +93,8 @@ pub fn plan(records: &[Record], asked: &Asked, tell: &dyn Fn(&str)) -> Result<Pl
     })
 }
 
-/// An effect with its rivals that are no aims, and the pairs of channels that these and the effect read.
+/// An effect with the alternatives that are not aims, and the pairs of channels that they and the
+/// effect read.
 fn still_open(
     data: &Prepared,
     round: &Round,

@@ -11,17 +11,17 @@ use crate::record::Record;
 /// The table.
 #[derive(Debug, Clone)]
 pub struct PowerFacts {
-    /// Where the record was read.
+    /// The path of the record.
     pub label: String,
-    /// What was read.
+    /// The record as it was read.
     pub record: RecordFacts,
     /// Names of all parts of the last model.
     pub model: Vec<String>,
     /// Trials of each amplitude.
     pub trials: usize,
-    /// Trials without a planted effect in which an effect was named.
+    /// Trials without a planted effect in which the search found an effect.
     pub named_without: usize,
-    /// By family, from the simplest on, then by name and channel.
+    /// Sorted by family, from the simplest on, then by name and channel.
     pub rows: Vec<PowerRow>,
 }
 
@@ -32,26 +32,26 @@ pub struct PowerRow {
     pub family: &'static str,
     /// Its own name.
     pub effect: &'static str,
-    /// Its name with its channel, where it reads another than the input.
+    /// Its name, with its channel unless it reads the input.
     pub name: String,
     /// The channel that it reads.
     pub channel: String,
-    /// The shapes that were planted.
+    /// The planted shapes.
     pub shapes: Vec<ShapeFacts>,
-    /// Unit of its gain, where the record states the units of its columns.
+    /// Unit of its gain, if the record states the units of its columns.
     pub gain_unit: Option<String>,
     /// The result.
     pub answer: Answer,
 }
 
-/// A shape that was planted.
+/// A planted shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeFacts {
     /// Its name in the effect's formula.
     pub name: &'static str,
     /// Its value.
     pub value: f64,
-    /// Its unit, where the record states the units of its columns.
+    /// Its unit, if the record states the units of its columns.
     pub unit: Option<String>,
 }
 
@@ -60,7 +60,7 @@ pub struct ShapeFacts {
 /// `effects`: names of effects or families; all if it is empty.
 ///
 /// # Errors
-/// One line if the record cannot be closed or an effect is not known.
+/// One line if no model can be identified from the record or an effect is unknown.
 pub fn power(
     record: &Record,
     asked: &Asked,

@@ -5,7 +5,7 @@ use crate::record::{Defect, Mode};
 use bowden::model::Source;
 use serde::Serialize;
 
-/// One record, or several of one rig that were joined.
+/// One record, or several joined records of one rig.
 #[derive(Debug, Clone)]
 pub struct RecordFacts {
     /// Torque or displacement.
@@ -14,7 +14,7 @@ pub struct RecordFacts {
     pub input: String,
     /// Name of the output's column.
     pub output: String,
-    /// Unit of the output, where the record states it.
+    /// Unit of the output, if the record states it.
     pub unit: Option<String>,
     /// Names of the further channels.
     pub channels: Vec<String>,
@@ -26,11 +26,11 @@ pub struct RecordFacts {
     pub rate: f64,
     /// Length of all files together \[s\].
     pub seconds: f64,
-    /// Cut-off of the one filter \[Hz\].
+    /// Cut-off of the filter \[Hz\].
     pub cutoff: f64,
-    /// The sensor's noise behind the filter, rms in the output's unit; 0 where unknown.
+    /// The sensor's noise after the filter, rms in the output's unit; 0 if unknown.
     pub noise_floor: f64,
-    /// The same over what is held out.
+    /// The same for the held-out data.
     pub held_out_floor: f64,
     /// Remarks on how the columns were read.
     pub notes: Vec<String>,
@@ -41,11 +41,11 @@ pub struct RecordFacts {
 /// One file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileFacts {
-    /// Where it was read.
+    /// Its path.
     pub path: String,
-    /// Its samples.
+    /// Number of its samples.
     pub samples: usize,
-    /// Rows that were left out because of what they hold, as asked.
+    /// Number of rows that `--drop-bad` dropped.
     pub dropped: usize,
     /// Its own sampling rate \[Hz\].
     pub rate: f64,
@@ -59,7 +59,7 @@ pub struct FileFacts {
 pub enum HeldOutOf {
     /// All of it.
     Whole,
-    /// Nothing, since another file is.
+    /// Nothing, because another file is held out.
     Nothing,
     /// Its end.
     Trailing,
@@ -91,13 +91,13 @@ impl RecordFacts {
         }
     }
 
-    /// An error as a multiple of the noise floor; `None` where the floor is not known.
+    /// An error as a multiple of the noise floor; `None` if the floor is unknown.
     #[must_use]
     pub fn floors(&self, rmse: f64) -> Option<f64> {
         (self.noise_floor > 0.0).then(|| rmse / self.noise_floor)
     }
 
-    /// A held-out error as a multiple of the noise floor there; likewise.
+    /// A held-out error as a multiple of the noise floor there; `None` if the floor is unknown.
     #[must_use]
     pub fn held_out_floors(&self, rmse: f64) -> Option<f64> {
         (self.held_out_floor > 0.0).then(|| rmse / self.held_out_floor)
@@ -119,7 +119,7 @@ fn file(data: &Prepared, piece: &Piece) -> FileFacts {
     }
 }
 
-/// The name of a channel; empty where the record has none.
+/// The name of a channel; empty if the record has none.
 pub(super) fn channel_name(data: &Prepared, source: Source) -> String {
     data.channel(source)
         .map_or_else(String::new, |c| c.name.clone())

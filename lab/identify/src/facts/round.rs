@@ -16,7 +16,7 @@ use serde::Serialize;
 /// One accepted effect.
 #[derive(Debug, Clone)]
 pub struct RoundFacts {
-    /// Its name for people, as it is in the final model.
+    /// Its printed name, as in the final model.
     pub title: String,
     /// Its family.
     pub family: &'static str,
@@ -24,7 +24,7 @@ pub struct RoundFacts {
     pub effect: &'static str,
     /// The channel that it reads.
     pub channel: String,
-    /// How far the name can be trusted.
+    /// Confidence in the name.
     pub grade: Grade,
     /// Its size in the model that is [shown](super::Facts::shown).
     pub size: Size,
@@ -36,9 +36,9 @@ pub struct RoundFacts {
     pub by_file: Vec<FileShare>,
     /// Number of blocks, of [`BLOCKS`](super::BLOCKS), on which it lowers the error.
     pub blocks_better: usize,
-    /// Effects that explain the same as well.
+    /// Effects that explain the record equally well.
     pub rivals: Vec<RivalFacts>,
-    /// The motion that would tell them apart, if one is known.
+    /// The motion that would separate them, if one is known.
     pub experiment: Option<Experiment>,
     /// Rms errors before the round.
     pub before: Segments,
@@ -50,10 +50,10 @@ pub struct RoundFacts {
     pub fit: Option<RoundFit>,
 }
 
-/// An effect that this record cannot tell from the one that was named.
+/// An effect that this record cannot separate from the term.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RivalFacts {
-    /// Its name for people.
+    /// Its printed name.
     pub title: String,
     /// Its family.
     pub family: &'static str,
@@ -61,7 +61,7 @@ pub struct RivalFacts {
     pub channel: String,
 }
 
-/// The one number that is reported of an effect.
+/// The number that is reported for an effect.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Size {
     /// Its gain.
@@ -77,12 +77,12 @@ pub enum Size {
 pub struct RoundFit {
     /// The parameters of the effect that the round added, as the round fitted them.
     pub coefficients: Vec<Parameter>,
-    /// The model that would be handed over if the rounds ended here.
+    /// The model that would be exported if the search ended here.
     pub model: RoundModel,
 }
 
-/// The model that would be handed over if the rounds ended here. Like the final model it is
-/// refitted on the fit and stop-check segments together.
+/// The model that would be exported if the search ended here. Like the final model it is refitted
+/// to the fit and selection segments together.
 #[derive(Debug, Clone, Serialize)]
 pub struct RoundModel {
     /// The content of a model file.
@@ -91,10 +91,9 @@ pub struct RoundModel {
     /// The same for each file, if each has gains of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     models: Option<Vec<ModelFile>>,
-    /// Whether the parameters have seen the stop-check segment.
+    /// Whether the parameters were fitted to the selection segment.
     refitted: bool,
-    /// Why the model still contains effects that belong to the record and not to the rig, if it
-    /// does.
+    /// The reason if the model still contains effects that belong to the record and not to the rig.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_refitted_without: Option<String>,
     /// Its errors, as shares of the output's standard deviation.
@@ -119,13 +118,13 @@ impl RoundModel {
     }
 }
 
-/// The fitted model after each round, those that are not delivered after the others.
+/// The fitted model after each round; rounds that are not delivered come last.
 pub(super) fn rounds_in_order(ledger: &Ledger) -> impl Iterator<Item = &Solution> {
     let rounds = ledger.rounds.iter().chain(&ledger.beyond);
     rounds.map(|round| &round.solution)
 }
 
-/// The models of all rounds, those that are not delivered after the others.
+/// The models of all rounds; rounds that are not delivered come last.
 pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<RoundFit> {
     use rayon::prelude::*;
     let last = ledger.rounds.len();
@@ -179,7 +178,7 @@ impl RoundFacts {
     }
 }
 
-/// The size of what a round has added in a model with these parameters.
+/// The size of the added term in a model with these parameters.
 pub(super) fn size(data: &Prepared, shown: &FinalFit, all: &[Parameter], round: &Round) -> Size {
     let name = term_name(data, round.term());
     let term = shown.term_of(round);

@@ -1,4 +1,4 @@
-//! Where a record came from: its file's length and hash.
+//! The origin of a record: the length and hash of its file.
 
 use crate::record::{self, Options, Record, RecordError};
 use sha2::{Digest, Sha256};
@@ -27,7 +27,7 @@ impl Source {
         Ok(Self::of_bytes(&label, &bytes))
     }
 
-    /// The source of bytes in memory; `label` stands for the name of their file.
+    /// The source of bytes in memory; `label` replaces the name of their file.
     #[must_use]
     pub fn of_bytes(label: &str, bytes: &[u8]) -> Self {
         let mut sha256 = String::with_capacity(64);
@@ -42,10 +42,10 @@ impl Source {
     }
 }
 
-/// Reads a record, with the hash of those very bytes.
+/// Reads a record together with the hash of the same bytes.
 ///
 /// # Errors
-/// The refusal, with its place.
+/// The refusal, with its position in the file.
 pub fn read_with_source(path: &Path, options: &Options) -> Result<(Record, Source), RecordError> {
     let label = path.display().to_string();
     let bytes = record::load(path)?;

@@ -1,4 +1,4 @@
-//! A Jacobian of as few rows as it has parameters.
+//! A Jacobian with only as many rows as parameters.
 //!
 //! Levenberg-Marquardt asks only for products of the residual and of the Jacobian's columns with
 //! each other. They are the same in any orthonormal basis of these columns; the solver gets them

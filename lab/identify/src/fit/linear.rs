@@ -1,4 +1,4 @@
-//! Gains by least squares once the shapes are known.
+//! Gains by least squares for known shapes.
 
 use super::tie::Tie;
 use crate::algebra::{Span, Stretch};

@@ -1,4 +1,4 @@
-//! Starts of the searches.
+//! Starting points of the searches.
 
 use super::Solution;
 use crate::model::structure::{Free, Range, Role, Structure};

@@ -1,4 +1,5 @@
-//! What a record could not show: what would have been missed, and which motion to record next.
+//! What a record could not show: the effects that it would have missed, and the motion to record
+//! next.
 
 pub mod plan;
 pub mod power;

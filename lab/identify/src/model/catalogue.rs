@@ -1,7 +1,7 @@
-//! Which effects are tried on a record: every family, on every channel, at a few shapes.
+//! The effects that are tried on a record: every family, on every channel, at a few trial shapes.
 //!
-//! The shapes are a coarse grid in units of the record's own ranges, from the table of
-//! `effects`. What is found is refitted with its shapes free, so the grid need only be close.
+//! The shapes are a coarse grid in units of the record's own ranges, from the table of `effects`. A
+//! found effect is refitted with free shapes, so the grid only has to be close.
 
 use super::effects::{entry, rank, table, Entry, Place, Trials, Zero};
 use super::kind::is_stage;

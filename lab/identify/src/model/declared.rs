@@ -1,4 +1,4 @@
-//! What a `--baseline` list means.
+//! The meaning of a `--baseline` list.
 
 use super::effects::{entry, first_of, Declared, Zero};
 use super::kind::{kind, Kind};

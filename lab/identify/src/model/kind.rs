@@ -1,4 +1,4 @@
-//! What a channel is to the effects.
+//! The kind of a channel, as far as the effects need it.
 
 use crate::problem::Channel;
 use crate::record::Mode;

@@ -1,4 +1,4 @@
-//! The effects of a model, each with an identity that it keeps whatever happens to the others.
+//! The effects of a model, each with an identity that does not depend on the others.
 
 use super::parameter::{Free, Role};
 use super::term::{FitTerm, TermId};

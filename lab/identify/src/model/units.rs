@@ -1,4 +1,4 @@
-//! Units of fitted parameters, put together from those of the columns.
+//! Units of fitted parameters, derived from those of the columns.
 
 /// A product of units with whole exponents.
 #[derive(Debug, Clone, Default, PartialEq)]

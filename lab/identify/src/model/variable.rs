@@ -1,4 +1,4 @@
-//! What an unnamed part of the residual may be a function of.
+//! The variables that an unmodelled part of the residual may depend on.
 
 use super::kind::{kind, Kind};
 use super::units::Unit;

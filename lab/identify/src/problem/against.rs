@@ -1,4 +1,5 @@
-//! Whether a force counts against the motion: a load cell that was mounted the other way round.
+//! Whether a force has the opposite sign to the motion, as with a load cell mounted the other way
+//! round.
 
 use super::Channel;
 use crate::algebra::{Span, Stretch};

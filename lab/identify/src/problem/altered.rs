@@ -1,4 +1,4 @@
-//! Records as they would be if a channel of one of them had been logged otherwise.
+//! Records as they would be if a channel of one of them had been logged differently.
 
 use super::Prepared;
 use bowden::effect::Motion;

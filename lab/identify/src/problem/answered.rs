@@ -1,4 +1,4 @@
-//! Another output of the same records, on the grids that they lie on.
+//! Another output of the same records, on the same grids.
 
 use super::blind::bridged;
 use super::build::Grid;

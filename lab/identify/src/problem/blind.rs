@@ -1,4 +1,4 @@
-//! Stretches of a record that hold no measurement.
+//! Stretches of a record without a measurement.
 
 use crate::record::{self, Column, Defect, DefectKind, Record};
 use std::borrow::Cow;

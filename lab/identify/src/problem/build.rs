@@ -403,7 +403,7 @@ impl Collected {
         let kept_back = split.selection.len().min(split.held_out.len());
         let unseen = held_out == HeldOut::Nothing || kept_back >= 20;
         if split.fit.len() < 96 || !unseen {
-            return Err("gaps in time and defects leave too few samples to fit".to_owned());
+            return Err("too few samples remain without gaps and defects".to_owned());
         }
         let smoother = ZeroPhase::new(grid.cutoff, 1.0 / grid.dt);
         let against = first.mode == Mode::Displacement

@@ -1,10 +1,10 @@
-//! What a run costs in operations over the samples.
+//! The cost of a run, in operations over the samples.
 //!
-//! Levenberg-Marquardt over samples is 92 to 97 % of a search on a measured record, so
-//! these four counts say where its time goes. Unlike seconds they repeat exactly, on any
+//! Levenberg-Marquardt over the samples takes 92 to 97 % of a search on a measured record, so these
+//! four counts show where the time is spent. Unlike seconds they are exactly reproducible, on any
 //! machine and with any number of threads.
 //!
-//! The counters belong to the process: of two runs side by side each sees the sum of both.
+//! The counters belong to the process: of two parallel runs, each sees the sum of both.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

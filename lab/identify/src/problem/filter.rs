@@ -1,9 +1,8 @@
 //! The zero-phase smoother: a Butterworth low-pass run forwards and backwards.
 //!
-//! One filter serves every column and the output, so that it can neither make a
-//! fake viscous term nor hide a real one: what it takes from the one side of the
-//! regression it takes from the other. Run in both directions it has no phase, and
-//! the square of the magnitude of the fourth-order filter, −6 dB at the cut-off.
+//! The same filter acts on every column and on the output, so it can neither create a false viscous
+//! term nor hide a real one: both sides of the regression change equally. Run in both directions it
+//! has no phase, and the square of the magnitude of the fourth-order filter, −6 dB at the cut-off.
 //!
 //! Source: bilinear transform of the Butterworth prototype with pre-warped cut-off
 //! (Oppenheim and Schafer, *Discrete-Time Signal Processing*, chapter 7);

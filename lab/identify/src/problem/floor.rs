@@ -1,4 +1,4 @@
-//! The noise floor: the sensor's noise behind the filter.
+//! The noise floor: the sensor's noise after the filter.
 
 use super::blind::bridged;
 use super::spectrum::power;

@@ -1,8 +1,8 @@
 //! Rest before and after a test.
 //!
-//! Loggers are started early and stopped late. Where nothing moves nothing is learnt; but the
-//! segments are shares of the record, and a held-out part at rest has no spread that an error
-//! could be a share of.
+//! Loggers are started early and stopped late. A rest contains no information. But the segments are
+//! shares of the record, and a held-out segment at rest has no standard deviation to compare an
+//! error with.
 
 use std::ops::Range;
 
@@ -60,7 +60,7 @@ pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<
         .collect();
     let left_out = format!("nothing moves {}: excluded", ends.join(" and "));
     let line = format!(
-        "the input rests within its noise for {still:.3} s: a straight line replaces it, because its noise would drive the hysteresis"
+        "the input rests within its noise for {still:.3} s: it is replaced by a straight line, because the noise would drive the hysteresis"
     );
     let said = [(!ends.is_empty(), left_out), (still > 0.0, line)];
     let said: Vec<String> = said

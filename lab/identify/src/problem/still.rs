@@ -1,8 +1,8 @@
-//! An input that rests: noise on it must not turn the hysteresis.
+//! An input at rest: its noise must not drive the hysteresis.
 //!
-//! The state of a hysteresis moves with the way that the input goes, and noise goes a long way in a
-//! rest of seconds: what it does to the state then looks like play or presliding. Where the
-//! smoothed input stays within its own noise for long, a straight line stands in for it.
+//! The state of a hysteresis moves with the travel of the input, and noise travels far during a
+//! rest of seconds: its effect on the state then looks like play or presliding. If the smoothed
+//! input stays within its own noise for long, it is replaced by a straight line.
 
 use super::ZeroPhase;
 use crate::algebra::line;

@@ -1,10 +1,10 @@
 //! Text whose columns are separated by blanks, as `numpy.savetxt`, MATLAB's `save -ascii` and
 //! gnuplot write it.
 //!
-//! It is told by its rows: blanks stand between numbers, and no tab, `;` or `,` is in them. Such
+//! Its rows identify it: blanks separate the numbers, and the rows contain no tab, `;` or `,`. Such
 //! a text is read as one with tabs. Its names may have blanks in them: a unit in brackets belongs
-//! to the name before it, and where that does not give a name for each column, two blanks
-//! separate names.
+//! to the name before it, and where that does not give a name for each column, two blanks separate
+//! names.
 
 use super::layout::{HEAD, HEAD_BYTES, TABLE};
 use super::number::is_data;

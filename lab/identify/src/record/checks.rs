@@ -1,4 +1,4 @@
-//! Options that make no sense, and columns that hold no measurement.
+//! Checks for invalid options, and for columns without a measurement.
 
 use super::clipping::{self, range};
 use super::error::RecordError;

@@ -1,11 +1,10 @@
-//! A sensor at the end of its range.
+//! A sensor at the limit of its range.
 //!
-//! A clipped signal has a flat top that is entered and left at a slope, while
-//! the other end of the transmission moves on. None of these alone will do: a
-//! quantised signal is flat at its turning points (but arrives there slowly),
-//! a held input is flat and entered at speed (but then the output rests too),
-//! and a dry-friction force without noise is flat while the input moves (but
-//! then the input does not turn on that plateau).
+//! A clipped signal has a flat top that begins and ends with a slope, while the other end of the
+//! transmission continues to move. None of these signs alone is sufficient: a quantised signal is
+//! flat at its turning points (but arrives there slowly), a held input is flat and entered at speed
+//! (but then the output rests too), and a dry-friction force without noise is flat while the input
+//! moves (but then the input does not turn on that plateau).
 
 use std::fmt;
 use std::ops::Range;

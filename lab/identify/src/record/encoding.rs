@@ -1,8 +1,8 @@
 //! From bytes to text: UTF-8, UTF-16 or Windows-1252, with or without a byte-order mark.
 //!
-//! UTF-8 and UTF-16 prove themselves: bytes of another encoding are almost never valid in
-//! them. Windows-1252 (which contains Latin-1) is what remains: it is assumed only where no
-//! character of the file is UTF-8 beyond ASCII, and never with control codes.
+//! UTF-8 and UTF-16 can be verified: bytes of another encoding are almost never valid in them.
+//! Otherwise Windows-1252 (which contains Latin-1) is assumed, but only if no non-ASCII character
+//! of the file is UTF-8, and never with control codes.
 
 use super::error::RecordError;
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};

@@ -1,4 +1,4 @@
-//! The one line that a bad record gets.
+//! The one-line message for a bad record.
 
 use std::fmt;
 

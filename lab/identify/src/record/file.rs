@@ -1,4 +1,4 @@
-//! Bytes from a path, without filling the memory from an endless one.
+//! Bytes from a path, with a limit for endless files.
 
 use super::encoding;
 use super::error::RecordError;
@@ -17,7 +17,7 @@ pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
     let failed = |error: std::io::Error| {
         refuse(match error.kind() {
             ErrorKind::NotFound => "no such file".to_owned(),
-            ErrorKind::PermissionDenied => "no permission to read the file".to_owned(),
+            ErrorKind::PermissionDenied => "permission to read the file denied".to_owned(),
             ErrorKind::IsADirectory => "is a folder; give a CSV file".to_owned(),
             _ => format!("cannot be read: {error}"),
         })

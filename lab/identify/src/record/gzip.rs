@@ -1,4 +1,4 @@
-//! What gzip has compressed.
+//! Decompression of gzip.
 
 use super::error::RecordError;
 use flate2::read::MultiGzDecoder;

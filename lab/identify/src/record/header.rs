@@ -1,4 +1,4 @@
-//! Which columns there are, and which of them a name means.
+//! The columns of a file, and the column that a name refers to.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::text::Rows;

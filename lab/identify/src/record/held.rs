@@ -1,8 +1,8 @@
 //! A column that changes in every k-th row only: a slower sensor, sampled and held by the log.
 //!
-//! As recorded it lags by half of its own step, which a search would call a delay, a lag or friction. Its
-//! updates are true samples; a curve through them stands in for the stairs. A converter's steps
-//! look alike where the motion is even, but then all are one count.
+//! As recorded it lags by half of its own step, which a search would identify as a delay, a lag or
+//! friction. Its updates are true samples; a curve through them replaces the staircase. The steps
+//! of a converter look similar during uniform motion, but then all steps are one count.
 
 /// Shortest period of the updates [rows].
 const SHORTEST: f64 = 4.0;
@@ -64,7 +64,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
         }
     }
     Some(format!(
-        "`{name}` changes only in every {}th row ({:.1} Hz), which delays it by {:.3} ms: a curve through its updates replaces it",
+        "`{name}` changes only in every {}th row ({:.1} Hz), which delays it by {:.3} ms: it is replaced by a curve through its updates",
         two_decimals(period),
         1.0 / (period * step),
         500.0 * (period - 1.0) * step

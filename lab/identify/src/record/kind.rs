@@ -1,4 +1,4 @@
-//! What a file is by its first bytes, whatever its name.
+//! The kind of a file from its first bytes, independent of its name.
 
 use super::error::RecordError;
 

@@ -1,8 +1,8 @@
-//! Where in a text the table stands: preamble, names, units, values.
+//! The position of the table in a text: preamble, names, units, values.
 //!
-//! A file whose first line names the columns that are asked for is read as it is. Else its
-//! head is searched for rows of numbers, and the rows above them for those names: what stands
-//! before is a preamble, what stands between names and numbers a row of units. Nothing else
+//! A file whose first line contains the requested names is read as it is. Otherwise the beginning
+//! of the file is searched for rows of numbers, and the rows above them for those names. Lines
+//! above the names are a preamble; a line between names and numbers is a row of units. Nothing else
 //! is guessed; if the names are nowhere, the first line is refused as a header.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
@@ -374,7 +374,7 @@ fn units_between<'a>(
     if !others.is_empty() {
         let lines = if others.len() == 1 { "line" } else { "lines" };
         let list = others.join(", ");
-        let note = format!("{lines} {list} between names and values ignored");
+        let note = format!("{lines} {list} between names and values: ignored");
         table.notes.push(note);
     }
     Ok(table)

@@ -1,9 +1,9 @@
-//! Reads a measured record: CSV, JSON, `.mat`, Parquet or `.npz` in, checked columns out.
+//! Reads a measured record (CSV, JSON, `.mat`, Parquet or `.npz`) into checked columns.
 //!
-//! A record is a time axis, the transmission's input and output, and optional
-//! channels beside them. Nothing is repaired in silence: what the reader did
-//! (a unit converted, a column ignored) stands in [`Record::notes`], and what
-//! it cannot read is refused with one line that names file, line and column.
+//! A record consists of a time axis, the transmission's input and output, and optional channels.
+//! Nothing is repaired silently: [`Record::notes`] lists what the reader did (a unit converted, a
+//! column ignored), and an unreadable record is refused with one line that names file, line and
+//! column.
 //!
 //! ```
 //! use bowden_lab::record::{parse, Options};

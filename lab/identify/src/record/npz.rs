@@ -1,4 +1,4 @@
-//! NumPy's `.npz`: a zip archive with one array a file.
+//! NumPy's `.npz`: a zip archive with one array per file.
 //!
 //! Sources: PKWARE, *APPNOTE.TXT*; NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of
 //! numbers is a vector, or a matrix whose columns an array of as many texts names; the fields of a
@@ -21,7 +21,7 @@ fn damaged(what: &str) -> Damage {
 pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
     let end = b"PK\x05\x06";
     let end = bytes.windows(end.len()).rposition(|own| own == end);
-    let end = end.ok_or_else(|| damaged("the zip archive has no end"))?;
+    let end = end.ok_or_else(|| damaged("the zip archive is truncated"))?;
     let count = number::<2>(bytes, end + 10)?;
     let mut at = number::<4>(bytes, end + 16)?;
     let mut left = LIMIT;

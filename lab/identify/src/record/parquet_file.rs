@@ -1,7 +1,7 @@
 //! Parquet: numeric columns that are not nested in lists.
 //!
-//! The crate `parquet` reads it, without arrow, and with those of its compressions that are
-//! written in Rust: snappy, gzip and lz4. What it says of a damaged file is passed on.
+//! The crate `parquet` reads it, without arrow, and only with the compressions that are written in
+//! Rust: snappy, gzip and lz4. Its message about a damaged file is passed on.
 
 use super::error::RecordError;
 use bytes::Bytes;

@@ -1,4 +1,4 @@
-//! Which column plays which part.
+//! The role of each column.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{missing, require, twice, Header};
@@ -149,7 +149,7 @@ const TIMES: [&str; 3] = ["t", "time", "timestamp"];
 
 /// The column of the time. `T` without a unit may as well be a temperature.
 fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
-    let hint = "--time COL selects another one; --rate HZ takes time from the row number";
+    let hint = "--time COL selects another one; --rate HZ computes the time from the row number";
     let usual = |index: &usize| {
         let column = &header.columns[*index];
         let unit = column.unit.as_deref();

@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         let has_name = |cells: &usize| columns[*cells..].iter().any(|c| !c.name.is_empty());
         let short = self.short.filter(has_name).map(|cells| {
             format!(
-                "each row has {cells} of the header's {} cells; the missing cells are not read",
+                "each row has only {cells} of the header's {} cells; the columns without cells are not read",
                 columns.len()
             )
         });
@@ -238,7 +238,7 @@ impl<'a> Reader<'a> {
         }
         if rows.may_be_cut() && self.lacks_its_end(&error) {
             return Ok(format!(
-                "line {first}, the last one, dropped: the file ends within it"
+                "line {first}, the last one, dropped: it is truncated"
             ));
         }
         // Thousands in the stamps let time run backwards.

@@ -2,8 +2,8 @@
 //! that was started again.
 //!
 //! Below the same names, and the same units where there are any, the rows continue. They are one
-//! record if the time continues too; else `--segment N` picks one of the segments. What is above the
-//! names of a segment is passed over as a preamble is.
+//! record if the time continues too; otherwise `--segment N` selects one of the segments. Text
+//! above the names of a segment is skipped like a preamble.
 
 use super::clock_time;
 use super::error::RecordError;

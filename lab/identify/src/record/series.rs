@@ -1,4 +1,4 @@
-//! What a series of a record is read from: a column, or the sum or difference of two.
+//! The source of a series: a column, or the sum or difference of two columns.
 
 use super::angles::is_angle;
 use super::error::{shown, RecordError, NAME_LENGTH};
@@ -149,7 +149,7 @@ pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Se
         }
         ([], _) => require(header, text, HINT).map(Series::Column),
         _ => Err(RecordError::new(format!(
-            "--channel NAME={}: can be read as several sums of two columns",
+            "--channel NAME={}: ambiguous, because it can be read as several sums of two columns",
             shown(text, NAME_LENGTH)
         ))),
     }

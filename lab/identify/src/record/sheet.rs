@@ -1,4 +1,4 @@
-//! Records from files that hold columns rather than lines of text.
+//! Records from files that contain columns instead of lines of text.
 
 use super::error::{RecordError, NAME_LENGTH};
 use super::header::Header;

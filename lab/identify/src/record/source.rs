@@ -1,4 +1,4 @@
-//! Rows of numbers, whatever the file is.
+//! Rows of numbers, for any kind of file.
 
 use super::clock_time;
 use super::error::RecordError;

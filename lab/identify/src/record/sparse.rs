@@ -1,5 +1,5 @@
-//! Channels of a slower sensor that has a number in a few rows only: a temperature once a second in a
-//! log of 500 Hz; and sensors with stamps of their own in one table.
+//! Channels of a slower sensor with numbers in only a few rows (a temperature once per second in a
+//! 500 Hz log), and sensors with separate time stamps in one table.
 //!
 //! A channel with a number in fewer than half of the rows is a line through its readings. What lacks in
 //! one with more is a fault of the record, as it is in the input and the output; unless these have

@@ -244,12 +244,12 @@ impl Clock {
             };
             format!(
                 "the time stamp repeats at {cell}, as in {} of {} rows: the stamps appear to be rounded; \
-                 --rate HZ takes time from the row number (about {rate:.1} Hz){drop}",
+                 --rate HZ computes the time from the row number (about {rate:.1} Hz){drop}",
                 self.repeated, self.rows
             )
         } else {
             format!(
-                "the time stamp repeats at {cell}; --rate HZ takes time from the row number{drop}"
+                "the time stamp repeats at {cell}; --rate HZ computes the time from the row number{drop}"
             )
         };
         Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
@@ -302,7 +302,7 @@ impl Clock {
     pub(super) fn notes(&self, kept: &[f64]) -> Vec<String> {
         let mut notes = Vec::new();
         if let Source::Rate(rate) = self.source {
-            notes.push(format!("time taken from the row number at {rate} Hz"));
+            notes.push(format!("time computed from the row number at {rate} Hz"));
         }
         if self.of_day {
             let what = match self.is_minutes {

@@ -1,8 +1,8 @@
-//! An angle that wraps around: a single-turn encoder leaps back by a turn.
+//! An angle that wraps around: a single-turn encoder jumps back by a turn.
 //!
-//! Each leap is as long as a turn that is known (2π, 360, a power of two of counts), the signal
-//! stays within one turn, and the other signals do not answer the leap, as they would that of a
-//! sawtooth or a switched reference.
+//! Each jump has the size of a known turn (2π, 360, or a power of two of counts), the signal stays
+//! within one turn, and the other signals do not respond to the jump, as they would to a sawtooth
+//! or a switched reference.
 
 use std::f64::consts::TAU;
 

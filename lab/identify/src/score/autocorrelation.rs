@@ -1,8 +1,8 @@
-//! Autocorrelation of residuals, with the band that filtered white noise keeps to.
+//! Autocorrelation of residuals, with the band of filtered white noise.
 //!
-//! A residual behind the filter is correlated even if it is nothing but noise. Its expected
-//! autocorrelation rho is that of the filter's impulse response, and the variance of the estimate
-//! r over n samples is Bartlett's (1946):
+//! A filtered residual is correlated even if it is only noise. Its expected autocorrelation rho is
+//! that of the filter's impulse response, and the variance of the estimate r over n samples is
+//! Bartlett's (1946):
 //!
 //! ```text
 //! n var r_k = sum_m (rho_m² + rho_{m+k} rho_{m−k} − 4 rho_k rho_m rho_{m−k} + 2 rho_m² rho_k²)

@@ -1,9 +1,9 @@
 //! Means of residuals over the bins of a variable, with their 95 % intervals.
 //!
-//! Residuals are correlated in time, so that neighbouring samples are no independent ones. The
-//! interval is that of a ratio over sixteen stretches of the record, each taken as one draw
-//! (cluster-robust variance with G/(G − 1); Student's t with G − 1 degrees, where G stretches have
-//! samples in the bin).
+//! Residuals are correlated in time, so neighbouring samples are not independent. The interval is
+//! that of a ratio over sixteen stretches of the record, each taken as one draw (cluster-robust
+//! variance with G/(G − 1); Student's t with G − 1 degrees, where G stretches have samples in the
+//! bin).
 
 use super::blocks::BLOCKS;
 use statrs::distribution::{ContinuousCDF, StudentsT};

@@ -1,4 +1,4 @@
-//! The blocks of a record, their least length, and the exact sign-flip test on their scores.
+//! The blocks of a record, their minimum length, and the exact sign-flip test on their scores.
 
 use crate::problem::Prepared;
 use std::ops::Range;

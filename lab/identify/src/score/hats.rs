@@ -1,7 +1,7 @@
 //! A curve over one variable as a term of the model: ten hat functions.
 //!
-//! Only those of the ten directions are kept that the rest of the model does not span: no data
-//! separate a curve from a constant or from the declared stiffness.
+//! Only the directions that the rest of the model does not span are kept: no data can separate a
+//! curve from a constant or from a stiffness in the baseline.
 
 use super::blocks::{blocks, flips};
 use crate::algebra::{directions, whitening};

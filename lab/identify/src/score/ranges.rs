@@ -1,4 +1,4 @@
-//! Where a motion goes beyond what a model has seen.
+//! Where a motion exceeds the ranges of a model's record.
 
 use crate::problem::{Channel, Prepared};
 use bowden::effect::Motion;

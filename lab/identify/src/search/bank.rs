@@ -1,8 +1,8 @@
 //! Columns of all candidates, computed once and kept between rounds.
 //!
-//! A candidate of the catalogue is one column at a trial shape. A candidate that reduces the
-//! SSE also has the slopes of that column in its own shapes: the linear step in them replaces
-//! a finer lattice. A curve over one variable is twenty hat functions.
+//! A candidate of the catalogue is one column at a trial shape. A candidate that reduces the SSE
+//! also has the derivatives of that column with respect to its shapes: a linear step along them
+//! replaces a finer grid. A curve over one variable is twenty hat functions.
 
 use super::gram::Grams;
 use crate::fit::projection::{rows, Span};

@@ -1,9 +1,9 @@
-//! Which names carry over to data that the fit has not seen.
+//! Which terms transfer to data that the fit has not used.
 //!
-//! On measured records the residual is systematic: every part of a record repeats the same
-//! misfit, so that no test within one record predicts whether a second record shows the same
-//! name. One rule helps: the delivered model is the simplest one whose error on blocks that were
-//! left out of its linear fit is not worse than the least of all ([`delivered`]).
+//! On measured records the residual is systematic: every part of a record repeats the same misfit,
+//! so no test within one record predicts whether a second record gives the same term. One rule
+//! helps: the delivered model is the simplest one whose error on blocks that were left out of its
+//! linear fit is not worse than the least of all ([`delivered`]).
 
 use super::bank::on_line;
 use super::policy;

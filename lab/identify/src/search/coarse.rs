@@ -1,4 +1,4 @@
-//! The coarse grid, and what local searches on it have reached.
+//! The coarse grid, and the results of local searches on it.
 
 use crate::fit::search::descend;
 use crate::model::structure::{Free, Structure};

@@ -1,4 +1,4 @@
-//! Power-law drag in the place of friction that was named.
+//! Power-law drag instead of other friction terms.
 //!
 //! `sgn(v)·|v|^a`, 0 < a < 1, lies between Coulomb (a towards 0) and viscous friction (a = 1). It
 //! fits a sum of the two nearly as well as they do, with one name instead of two, so that the

@@ -1,4 +1,4 @@
-//! Forward selection to first order: names are added one at a time while the criterion falls.
+//! First-order forward selection: terms are added one at a time while the criterion falls.
 
 use super::gram::Swept;
 use super::kept::Kept;

@@ -1,4 +1,4 @@
-//! A play or a stop that the hysteresis has taken for its own.
+//! A play or a stop that the hysteresis imitates.
 //!
 //! Both are hystereses. The declared one, fitted without them, bends towards their loop, and where
 //! it has arrived their column lies among its own slopes: to first order nothing is gained, and no

@@ -1,8 +1,9 @@
-//! Single names in the place of a curve.
+//! Single terms instead of a curve.
 //!
-//! To first order a curve over a variable promises more than any one name over it whose shape lies
-//! between trial shapes, and so do many names together. Refitted, the one name may do as well.
-//! Before a curve is taken, the most promising names over its variable are therefore refitted.
+//! To first order, a curve over a variable promises more than a single term over it whose shape
+//! lies between trial shapes, and so do many terms together. After a refit the single term may be
+//! as good. Before a curve is accepted, the most promising terms over its variable are therefore
+//! refitted.
 
 use super::linear::{Linear, Member};
 use super::moves::{is_same, Move};

@@ -1,4 +1,4 @@
-//! What a move keeps of a model.
+//! The part of a model that a move keeps.
 
 use crate::model::structure::Structure;
 

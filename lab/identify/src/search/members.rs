@@ -1,8 +1,8 @@
 //! Other sets of terms that describe a mechanism as well as those found.
 //!
-//! Of a record that no model explains, the terms of a mechanism are descriptions of one curve. Sets
-//! of at most as many terms are compared to first order by `ln SSE` plus a price per parameter, and
-//! the best of them are refitted in place of those found.
+//! If no model explains a record, the terms of a mechanism are descriptions of one curve. Sets with
+//! at most as many terms are compared to first order by `ln SSE` plus a penalty per parameter, and
+//! the model is refitted with the best of them.
 
 use super::kept::Kept;
 use super::linear::{Group, Linear};

@@ -1,4 +1,4 @@
-//! The few entries of a Gram matrix that a forward selection reads.
+//! The entries of a Gram matrix that a forward selection reads.
 //!
 //! One step needs the products within each group of columns and those with the target: about
 //! two thousand of several hundred thousand entries. Only these are updated when a column is

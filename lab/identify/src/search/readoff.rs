@@ -1,4 +1,4 @@
-//! From the final set of a search to the ledger: rounds, rivals, the unmodelled curve.
+//! From the final set of a search to the results table: terms, alternatives, the unmodelled curve.
 
 use super::bank::Identity;
 use super::carries_over::delivered;

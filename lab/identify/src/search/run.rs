@@ -1,4 +1,4 @@
-//! The search loop: propose moves, refit the best ones, accept one, linearise again.
+//! The search loop: propose moves, refit the best ones, accept one, and linearise again.
 
 use super::bank::{Bank, Identity};
 use super::coarse::Coarse;

@@ -124,7 +124,7 @@ fn a_preamble_and_a_row_of_units_are_found() {
         &[
             "lines 1–3 above the names ignored",
             "units from line 6",
-            "line 5 between names and values ignored",
+            "line 5 between names and values: ignored",
             commas,
         ],
     );
@@ -150,7 +150,7 @@ fn labelled_rows_of_a_trace_export_are_read() {
         &[
             "lines 1–4 above the names ignored",
             "units from line 7",
-            "line 6 between names and values ignored",
+            "line 6 between names and values: ignored",
             "columns not read: `name`",
             "numbers have a decimal comma",
         ],
@@ -239,7 +239,8 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
 #[test]
 fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     // As LabVIEW writes it: a name for comments, and no cell for them.
-    let note = "each row has 3 of the header's 4 cells; the missing cells are not read";
+    let note =
+        "each row has only 3 of the header's 4 cells; the columns without cells are not read";
     let text = csv("t,x,f,Comment", &rows());
     same(
         &text,
@@ -409,7 +410,7 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     spoilt[30] = "0.29,1,1".to_owned();
     refused(
         csv("t,x,f", &spoilt),
-        "r.csv:32: column `t`: the time stamp repeats at 0.29; --rate HZ takes time from the row number; --drop-bad drops such rows",
+        "r.csv:32: column `t`: the time stamp repeats at 0.29; --rate HZ computes the time from the row number; --drop-bad drops such rows",
     );
     // Words and infinities stay refused, and what is left has to be enough.
     spoilt[30] = "0.30,inf,1".to_owned();

@@ -54,7 +54,7 @@ fn a_fault_of_json_is_named_with_its_record() {
 
 #[test]
 fn json_without_one_table_is_refused() {
-    let none = "r.csv: the JSON holds no table: allowed are an array of records, one record a line, or an object of columns";
+    let none = "r.csv: the JSON holds no table: allowed are an array of records, one record per line, or an object of columns";
     for text in ["{\"t\": 1, \"x\": 2}", "{\"a\": {\"b\": []}}"] {
         refused(text, none);
     }

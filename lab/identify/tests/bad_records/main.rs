@@ -150,7 +150,7 @@ fn a_missing_column_is_named_with_those_that_exist() {
     refused(
         csv("tim,x,f", &rows()),
         "r.csv:1: column `t`: no such column among `tim`, `x`, `f` (nearest: `tim`); \
-         --time COL selects another one; --rate HZ takes time from the row number",
+         --time COL selects another one; --rate HZ computes the time from the row number",
     );
     refused(
         csv("t,tau_i,torque", &rows()),

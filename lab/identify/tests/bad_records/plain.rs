@@ -138,7 +138,7 @@ fn one_name_with_two_units_is_two_columns() {
 fn a_file_that_ends_within_a_line_loses_that_line() {
     let whole = csv("t,x,f", &rows());
     let cut = |text: &str| format!("{whole}{text}");
-    let note = "line 402, the last one, dropped: the file ends within it";
+    let note = "line 402, the last one, dropped: it is truncated";
     for end in ["4.00,1.5", "4.00,1.5,", "4.00,1.5,-", "4.00,1.5,2.e", "4"] {
         same(&cut(end), &Options::default(), &[note]);
         // A line that ends is whole, and something else is wrong with it.

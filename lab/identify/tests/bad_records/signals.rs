@@ -11,13 +11,13 @@ fn time_that_does_not_run_forward_is_refused() {
     refused(
         with_line(57, "0.54,1,2"),
         "r.csv:57: column `t`: the time stamp repeats at 0.54; \
-         --rate HZ takes time from the row number; --drop-bad drops such rows",
+         --rate HZ computes the time from the row number; --drop-bad drops such rows",
     );
     let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
     refused(
         &rounded,
         "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows: \
-         the stamps appear to be rounded; --rate HZ takes time from the row number (about 127.9 Hz); --drop-bad drops such rows",
+         the stamps appear to be rounded; --rate HZ computes the time from the row number (about 127.9 Hz); --drop-bad drops such rows",
     );
     let options = Options {
         rate: Some(128.0),

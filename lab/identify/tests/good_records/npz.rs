@@ -161,7 +161,7 @@ fn damage_to_an_archive_is_refused() {
     let line = refusal(&whole[..whole.len() / 2]);
     assert_eq!(
         line,
-        "r.npz: the file is damaged: the zip archive has no end"
+        "r.npz: the file is damaged: the zip archive is truncated"
     );
     let mut spoilt = whole.clone();
     spoilt[2000] ^= 1;

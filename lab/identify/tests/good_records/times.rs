@@ -141,7 +141,7 @@ fn comments_among_the_rows_are_passed_over() {
             &[
                 "line 1 above the names ignored",
                 "units from line 4",
-                "line 3 between names and values ignored",
+                "line 3 between names and values: ignored",
             ],
         ),
         ("Rig 4\nt,x,f", &["line 1 above the names ignored"]),

@@ -1,4 +1,4 @@
-//! The ledger: errors round by round, names, parts, and what was turned down.
+//! The results table: errors term by term, terms, parts, and rejected effects.
 
 use crate::chart::scale::Scale;
 use crate::chart::{Axis, Chart};
@@ -85,7 +85,7 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         (mechanisms(facts))
         p { "Baseline: " (facts.declared.effects.join(", ")) "." }
-        (table(&caption, &head, 2..7, &rows))
+        div class="errors" { (table(&caption, &head, 2..7, &rows)) }
         p class="note" {
             "Removes: share of the squared error on the fit segment that the term removes. vs noise: held-out error in multiples of the sensor's noise. Confidence concerns the name of the term, not its coefficient."
             @if !facts.beyond.is_empty() { " In brackets: found, but not delivered." }
@@ -131,7 +131,7 @@ fn mechanisms(facts: &Facts) -> Markup {
         }
         div class="grid-of" { @for chart in &charts { (chart) } }
         p class="note" {
-            "What each mechanism adds to the output, with the residual of all. The 95 % intervals hold for the motion of this record."
+            "Contribution of each mechanism to the output, plus the residual of the model with all mechanisms. The 95 % intervals hold for the motion of this record."
         }
         (files_alone(facts))
     }
@@ -193,7 +193,10 @@ fn curve(facts: &Facts, k: usize, lack: &Lack) -> Option<Markup> {
         label: quantity(&lack.curve.over, lack.curve.unit.as_deref()),
         scale: Scale::linear(points.iter().map(|knot| knot.at)),
     };
-    let description = format!("What {} adds to the output, at 95 %.", lack.title);
+    let description = format!(
+        "Contribution of {} to the output, with 95 % intervals.",
+        lack.title
+    );
     (points.len() > 1).then(|| {
         Chart::new(&format!("mechanism-{k}"), &lack.title, &description, x, y)
             .low()
@@ -267,7 +270,7 @@ pub(crate) fn parts(figures: &Figures) -> Markup {
         })
         .collect();
     table(
-        "Standard deviation of each part of the model, as a share of the output's",
+        "Standard deviation of each part of the model, relative to that of the output",
         &["part", "share"],
         2..2,
         &rows,
@@ -298,8 +301,8 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
             p { "No effect was added, so there is nothing to compare block by block." }
         } @else {
             p {
-                "The fit segment in " (BLOCKS) " blocks of equal path. A bar is the share of the block's squared error "
-                "that the term removes; a negative bar adds error. A real effect reduces the error of almost every block."
+                "The fit segment in " (BLOCKS) " blocks of equal travel. Each bar is the share of the block's squared error "
+                "that the term removes; a negative bar means that the term adds error. A real effect reduces the error of almost every block."
             }
         }
         div class="grid-of" {
@@ -320,7 +323,7 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
             }
         }
         @if !facts.rounds.is_empty() && facts.rounds.iter().all(|r| r.rivals.is_empty()) {
-            p { "No other effect of the catalogue explains as much as any of these." }
+            p { "No other effect in the catalogue explains as much as any of these terms." }
         }
     }
 }

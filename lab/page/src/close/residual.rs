@@ -1,4 +1,4 @@
-//! What the residuals say: over each variable, over lags and frequencies, and the unknown curve.
+//! The residuals over each variable, over lags and over frequencies, and the unmodelled curve.
 
 use crate::chart::scale::Scale;
 use crate::chart::{Axis, Chart};
@@ -210,7 +210,7 @@ fn spectrum(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Chart {
     .caption("The vertical line is the filter's cut-off.")
 }
 
-/// The curve of what no effect of the catalogue explains.
+/// The curve of what no effect in the catalogue explains.
 pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
     let unit = facts.record.unit.as_deref();
     let knots = &unknown.curve;

@@ -229,7 +229,7 @@ fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String>
     let super::Slopes { least, greatest } = plant.slopes;
     let Some(reference_rate) = around.reference_rate else {
         return Err(format!(
-            "the least slope of the output is {least:.4}: the rate of the hysteresis has no useful bound"
+            "the smallest slope of the output is {least:.4}: the rate of the hysteresis has no useful bound"
         ));
     };
     let [low, high] = plant.output().ok_or(super::TOO_SHORT)?;
@@ -272,7 +272,7 @@ fn certificate(
     let peak = PeakSampled::try_new(&law, &bounds).map_err(|e| e.to_string())?;
     if peak.bound > known.reference {
         return Err(format!(
-            "the certificate is vacuous: its bound of {:.3} N·m exceeds the greatest output of {:.3} N·m",
+            "the certificate is vacuous: its bound of {:.3} N·m exceeds the largest output of {:.3} N·m",
             peak.bound, known.reference
         ));
     }

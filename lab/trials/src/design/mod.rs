@@ -1,4 +1,4 @@
-//! From an identified model to gains: what `bowden design` answers.
+//! From an identified model to gains: the calculation behind `bowden design`.
 //!
 //! The plant is the transmission of the model, whose output moves with the command by a slope
 //! within [`Slopes`], behind a delay. Inertias, springs and dampings are not in the model:
@@ -75,7 +75,7 @@ const PEAK_OF_NOISE: f64 = 6.0;
 const WORTH: f64 = 1.1;
 
 /// Why there is neither a reference nor a certificate.
-pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than its hysteresis, so no torque is covered in both directions and no reference exists; record a larger stroke";
+pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than its hysteresis, so it reaches no torque in both directions, and there is no reference; record a larger stroke";
 
 /// Gain margin that a loop must keep whose every step is the longest one.
 const LONG_MARGIN: f64 = 1.4;
@@ -455,7 +455,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let least = plant.slopes.least;
     if least < 0.0 {
         notes.push(format!(
-            "the least slope is {least:.4}: after a reversal the output reverses while the input continues, and no margin covers this case; `bowden identify --invertible` fits a model without it"
+            "the smallest slope is {least:.4}: after a reversal the output reverses while the input continues, and no margin covers this case; `bowden identify --invertible` fits a model without it"
         ));
     }
     if plant.output().is_none() {

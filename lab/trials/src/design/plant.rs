@@ -1,4 +1,4 @@
-//! What a model file says of the plant of a loop: slopes, ranges, intervals.
+//! The data of a model file about the plant: slopes, ranges, intervals.
 
 use bowden::transmission::{Mode, Transmission};
 use bowden_lab::export::{About, ModelFile, TermFile};
@@ -133,7 +133,7 @@ impl Plant {
     pub(super) fn without_unit(&self) -> Option<&'static str> {
         let stated = |end: &str| self.about.units.contains_key(end);
         (!(stated("input") && stated("output"))).then_some(
-            "the record states no unit of its torques: they are taken as N·m; if they are in mN·m, all limits are a thousand times too wide",
+            "the record states no unit of its torques: they are assumed to be in N·m; if they are in mN·m, all limits are a thousand times too wide",
         )
     }
 

@@ -1,4 +1,4 @@
-//! A file of gains that is proved as it stands.
+//! A gains file that can be proved as written.
 //!
 //! The limits of a design are what its record has covered. Against friction they hold a smaller
 //! reference than the record's greatest output, and from the corner of its box the law moves the

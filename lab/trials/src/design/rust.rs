@@ -166,7 +166,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out);
     line!(
         out,
-        "/// Step [s] and greatest gain of the plant [N·m/command unit]."
+        "/// Step [s] and largest gain of the plant [N·m/command unit]."
     );
     line!(out, "const LAG: Form<f32> = Form::FirstOrder {{");
     line!(out, "    step: {},", number(step));

@@ -1,5 +1,5 @@
-//! A file of `bowden design` as gains that can be proved: its adaptive law, in `f32` as on the
-//! chip, on the plant that the design has assumed.
+//! The gains of a file from `bowden design` for a proof: its adaptive law, in `f32` as on a
+//! microcontroller, on the plant that the design assumed.
 
 use super::form::{Above, Float, Form, NotBelow, NotNegative, Plant, Positive};
 use super::{of_form, Named, Proof, Refusal, NO_PLANT};

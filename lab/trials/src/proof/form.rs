@@ -1,4 +1,4 @@
-//! The TOML form of one's own gains, `examples/data/gains_own.toml`.
+//! The TOML form of the user's own gains, `examples/data/gains_own.toml`.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What would mend an inequality that does not hold: a rate, a box or a gain.
+//! A change that would satisfy an inequality that does not hold: a rate, a bound or a gain.
 
 use super::form::{Float, Form};
 use crate::decimal::{digits, places};
@@ -10,8 +10,8 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
     let g = form.plant.alpha.0[1] * form.beta.0[1];
     let (left, right) = (inequality.left.as_f64(), inequality.right.as_f64());
     let coarse = match form.float {
-        Float::F32 => "f64, a lower rate or a greater lambda",
-        Float::F64 => "a lower rate or a greater lambda",
+        Float::F32 => "f64, a lower rate or a larger lambda",
+        Float::F64 => "a lower rate or a larger lambda",
     };
     match inequality.name {
         Named::Step => format!(
@@ -41,7 +41,7 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
         }
         Named::Stiffness => format!("k above 1/lambda² = {}", up(1.0 / (lambda * lambda))),
         Named::SStays => format!(
-            "a greater k or lambda, a higher lower bound of beta_hat, {coarse}: k = {k} is too close to 1/lambda² = {}",
+            "a larger k or lambda, a higher lower bound of beta_hat, {coarse}: k = {k} is too close to 1/lambda² = {}",
             up(1.0 / (lambda * lambda))
         ),
         Named::ZStays | Named::Owed | Named::Slack => format!("{coarse}: the step of z is smaller than its rounding error"),
@@ -61,7 +61,7 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
             form.slew.map_or(f64::NAN, |slew| slew.0)
         ),
         Named::Overflow => {
-            "a greater epsilon, or smaller gains: a number of the step overflows its float"
+            "a larger epsilon, or smaller gains: a number in the step overflows its float type"
                 .to_owned()
         }
     }

@@ -1,4 +1,4 @@
-//! One's own gains: what is proved of the shipped step with them, every rounding included.
+//! The proof for the user's own gains: the shipped step, including every rounding error.
 
 pub(crate) mod designed;
 mod form;

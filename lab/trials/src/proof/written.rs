@@ -1,7 +1,7 @@
 //! A certificate in the forms that Coq and Gappa check independently of this program.
 //!
-//! Neither believes a number of the program, so the numbers here are computed in plain
-//! floats, a little on the safe side, and rounded to few bits.
+//! Neither relies on the program's numbers, so the numbers here are computed in plain floats,
+//! slightly on the safe side, and rounded to few bits.
 
 use super::{Float, Proof};
 use bowden_bound::{Dyadic, Enclosure};

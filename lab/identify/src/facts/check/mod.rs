@@ -12,7 +12,7 @@ use crate::score::dependences::Dependence;
 use sentence::sentence;
 use std::path::Path;
 
-/// A model on a record that it has not seen.
+/// A model on another record.
 #[derive(Debug, Clone)]
 pub struct CheckFacts {
     /// The record as it was read.
@@ -21,19 +21,19 @@ pub struct CheckFacts {
     pub line: Line,
     /// Standard deviation of the filtered output, in its unit.
     pub deviation: f64,
-    /// Rms error as it is, in the output's unit.
+    /// Rms error of the model as it is, in the output's unit.
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
     /// Rms error with an offset alone.
     pub rmse_offset: f64,
-    /// Rms error after the correction: of the offset alone if that suffices.
+    /// Rms error after the correction (of the offset alone, if that is sufficient).
     pub rmse_corrected: f64,
     /// Mean of the error as it is.
     pub mean: f64,
     /// Rms error up to which the model holds; `None` if nothing determines it.
     pub allowed: Option<f64>,
-    /// The held-out error that the model came with, as a share of the standard deviation.
+    /// The model's own held-out error, as a share of the standard deviation.
     pub reference: Option<f64>,
     /// The same in the output's unit, if the model file states it.
     pub reference_rmse: Option<f64>,
@@ -45,28 +45,27 @@ pub struct CheckFacts {
     pub own_cutoff: Option<f64>,
     /// The sampling rate that the model's file states \[Hz\].
     pub own_rate: Option<f64>,
-    /// Ranges in which this record exceeds what the model has seen.
+    /// Ranges in which this record exceeds the model's own record.
     pub outside: Vec<Outside>,
     /// The variables that the residual depends on, if the model does not hold.
     pub depends_on: Vec<DependsOn>,
-    /// How the record may have been logged otherwise, if the model does not hold and would with
-    /// that.
+    /// A suspected logging error: the model does not hold, but would hold after its correction.
     pub otherwise: Option<Otherwise>,
-    /// Whether the model holds but for the sign of the output.
+    /// Whether the model holds except for the sign of the output.
     pub is_inverted: bool,
-    /// Standard deviation of what the model makes of the input, if that can be told.
+    /// Standard deviation of the input's contribution to the model's output, if it is known.
     pub made_of_input: Option<f64>,
     /// Seconds at the start that are excluded.
     pub left_out: f64,
     /// Whether only the offset has moved.
     pub offset_alone: bool,
-    /// Whether the error is just above the limit of a model that was not exact where it came from.
+    /// Whether the error is just above the limit, for a model that was not exact on its own record.
     pub is_just_above: bool,
-    /// Whether the model missed more than noise where it came from.
+    /// Whether the model's error on its own record exceeded the noise.
     pub was_inexact: bool,
-    /// Whether its own verdict was that it does not carry over.
+    /// Whether its own verdict was `not-transferable`.
     pub was_of_one_record: bool,
-    /// Whether gain and offset take most of the squared error.
+    /// Whether gain and offset remove most of the squared error.
     pub is_mended: bool,
     /// Whether the output hardly exceeds the noise.
     pub quiet: bool,
@@ -81,7 +80,7 @@ pub struct CheckFacts {
 pub struct DependsOn {
     /// Its name.
     pub variable: &'static str,
-    /// The variable for people.
+    /// The variable as printed.
     pub words: String,
     /// The channel that it is computed from.
     pub channel: String,
@@ -91,21 +90,21 @@ pub struct DependsOn {
     pub p: Option<f64>,
 }
 
-/// The text of a model file, checked.
+/// A checked model file.
 #[derive(Debug, Clone)]
 pub struct ModelOfFile {
     given: Given,
     mode: Mode,
 }
 
-/// A question to a model and a record.
+/// A request for a model and a record.
 #[derive(Debug, Clone)]
 pub struct CheckQuestion {
     /// The columns; the mode is the model's.
     pub asked: Asked,
     /// Whether the signals over time are requested.
     pub trace: bool,
-    /// Whether what a page draws is requested.
+    /// Whether the data of a page are requested.
     pub figures: bool,
 }
 
@@ -118,7 +117,7 @@ pub struct Checked {
     pub facts: CheckFacts,
     /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
-    /// What a page draws, if requested.
+    /// The data of a page, if requested.
     pub figures: Option<Figures>,
 }
 
@@ -133,10 +132,10 @@ impl ModelOfFile {
         Ok(Self { given, mode })
     }
 
-    /// Refuses a model that does not describe the records that it came from.
+    /// Refuses a model that does not describe its own records.
     ///
     /// # Errors
-    /// One sentence where its verdict is `no-input-dependence`.
+    /// One sentence if its verdict is `no-input-dependence`.
     pub fn could_hold(&self) -> Result<(), String> {
         match self.given.about.verdict.as_deref() {
             Some("no-input-dependence") => Err(
@@ -154,7 +153,7 @@ impl ModelOfFile {
     }
 }
 
-/// Runs a model on a record that it has not seen.
+/// Runs a model on another record.
 ///
 /// # Errors
 /// One line that names the record.
@@ -182,7 +181,7 @@ pub fn check(
     check_record(model, read?, question)
 }
 
-/// The same with a record that was read already.
+/// The same with a record that was already read.
 ///
 /// # Errors
 /// As [`check()`].
@@ -218,13 +217,13 @@ fn named(label: &str, message: String) -> String {
 }
 
 impl CheckFacts {
-    /// What the error is up to which the model holds, in words.
+    /// The error up to which the model holds, in words.
     #[must_use]
     pub fn rule(&self) -> String {
         sentence::rule(self)
     }
 
-    /// The facts of a check.
+    /// The facts of a validation.
     #[must_use]
     pub fn new(check: &Check) -> Self {
         let offset_alone = check.offset_alone();

@@ -1,4 +1,4 @@
-//! The verdict of a check in one or two sentences.
+//! The verdict of a validation in one or two sentences.
 
 use super::CheckFacts;
 use crate::check::{Fitted, Line, Otherwise, Verdict, Way, FAINT, HOLDS, JUST, NOISE, NOTHING};
@@ -7,18 +7,18 @@ use crate::conclude::verdict::POOR;
 use crate::facts::numbers::{number, share as percent, with_interval};
 use std::fmt::Write as _;
 
-/// Share of the output's standard deviation that noise may be without a word.
+/// Largest share of noise in the output's standard deviation without a remark.
 const LITTLE: f64 = 0.2;
 
-/// Gain and offset are mentioned with a model that holds where they leave less than this
-/// share of its error.
+/// For a model that holds, gain and offset are mentioned if with them less than this share of its
+/// error remains.
 const BETTER: f64 = 0.8;
 
-/// A model hardly reads its input where that makes less than this share of the output's standard
-/// deviation. A choice.
+/// A model hardly depends on its input if the input contributes less than this share of the
+/// output's standard deviation. A choice.
 const HARDLY: f64 = 0.1;
 
-/// The offset alone has moved where another gain besides divides the error by no more than this. A
+/// Only the offset has changed if a gain in addition divides the error by no more than this. A
 /// choice.
 const ALIKE: f64 = 1.05;
 
@@ -31,7 +31,7 @@ fn unit(check: &CheckFacts) -> String {
     unit.map_or_else(String::new, |unit| format!(" {unit}"))
 }
 
-/// What the error is up to which a model holds.
+/// The error up to which a model holds.
 pub(super) fn rule(check: &CheckFacts) -> String {
     let noise = format!("{NOISE} times the noise floor");
     let Some(own) = check.reference else {
@@ -53,7 +53,7 @@ pub(super) fn rule(check: &CheckFacts) -> String {
     }
 }
 
-/// That a poor model is no better for holding.
+/// A remark that a poor model does not become good because it holds.
 fn was_poor(check: &CheckFacts) -> &'static str {
     match check.reference.is_some_and(|own| own >= POOR) {
         true => " Its error on its own record is large too: `holds` does not make it a good model.",
@@ -61,7 +61,7 @@ fn was_poor(check: &CheckFacts) -> &'static str {
     }
 }
 
-/// The check in one or two sentences.
+/// The validation in one or two sentences.
 pub(super) fn sentence(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
     let as_it_is = share(check.rmse);
@@ -103,7 +103,7 @@ pub(super) fn sentence(check: &CheckFacts) -> String {
             "This record is inconclusive: its output moves by little more than the noise.".to_owned()
         }
         Verdict::CannotTell if check.is_as_at_home => format!(
-            "This record is inconclusive: the error is {}, which is no sign of a change, but the output moves so little here that this error is {as_it_is} of the output. Record a larger motion.",
+            "This record is inconclusive: the error is {}, which does not indicate a change, but the output moves so little here that this error is {as_it_is} of the output. Record a larger motion.",
             in_its_unit(check)
         ),
         Verdict::CannotTell if check.is_just_above => format!(
@@ -138,7 +138,7 @@ fn is_noise(check: &CheckFacts) -> bool {
     check.rmse <= NOISE * check.record.noise_floor
 }
 
-/// The error in the output's unit, beside the one that the model came with.
+/// The error in the output's unit, next to the model's own error.
 fn in_its_unit(check: &CheckFacts) -> String {
     let amount = |rmse: f64| format!("{}{}", number(rmse, Some(0.05 * rmse)), unit(check));
     let own = check.reference_rmse.map_or_else(String::new, amount);
@@ -148,7 +148,7 @@ fn in_its_unit(check: &CheckFacts) -> String {
     )
 }
 
-/// What somebody has to know of a record on which the noise is most of what is missed.
+/// A remark on a record on which noise causes most of the error.
 fn hardly_moves(check: &CheckFacts) -> String {
     match check.rmse > LITTLE * check.deviation {
         true => " The output hardly moves here: record a larger motion.".to_owned(),
@@ -156,14 +156,14 @@ fn hardly_moves(check: &CheckFacts) -> String {
     }
 }
 
-/// What else there is to say of a model that holds: gain and offset, and what it hardly reads.
+/// Further remarks on a model that holds: gain and offset, and an input that it hardly depends on.
 fn with_reserve(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
     let left = share(check.rmse_gain_offset);
     let gain = check.line.gain_moved();
     let mut text = match check.allowed {
         Some(allowed) if gain || check.line.offset_moved(check.deviation) => format!(
-            " Yet the {}, within the limit of {}; with this correction the error would be {left}: has the rig changed, or is the motion different?",
+            " However, the {}, within the limit of {}; with this correction the error would be {left}: has the rig changed, or is the motion different?",
             moved(check, !gain),
             share(allowed)
         ),
@@ -181,7 +181,7 @@ fn with_reserve(check: &CheckFacts) -> String {
     if let Some(made) = made {
         let _ = write!(
             text,
-            " The model hardly depends on `{}`, which contributes {} of this record's output. This validation would hardly show a change of that part of the transmission.",
+            " The model hardly depends on `{}`, which contributes only {} of the output of this record. This validation would hardly show a change of that part of the transmission.",
             check.record.input,
             share(made)
         );
@@ -189,7 +189,7 @@ fn with_reserve(check: &CheckFacts) -> String {
     text
 }
 
-/// How a sentence goes on about a model that does not hold with another gain and offset either.
+/// The rest of a sentence about a model that does not hold with another gain and offset either.
 fn with_another_gain(check: &CheckFacts) -> String {
     let share = |rmse: f64| percent(rmse / check.deviation);
     let left = share(check.rmse_gain_offset);
@@ -213,7 +213,7 @@ fn with_another_gain(check: &CheckFacts) -> String {
     }
 }
 
-/// Gain and offset, or the offset where it does the same alone.
+/// Gain and offset, or the offset alone if that is sufficient.
 fn correction(check: &CheckFacts, offset_alone: bool) -> String {
     match offset_alone {
         true => format!(
@@ -249,8 +249,8 @@ fn moved(check: &CheckFacts, offset_alone: bool) -> String {
     }
 }
 
-/// What is to be asked where the gain has moved: a model that was not exact is off by one at another pace
-/// or stroke, too.
+/// The question about a changed gain: the gain of an inexact model may also change with the speed
+/// or the stroke.
 fn another_unit(check: &CheckFacts) -> &'static str {
     let is_far = !check.offset_alone && is_far(check.line.gain.value);
     match (is_far, check.was_inexact && !check.offset_alone) {
@@ -261,7 +261,7 @@ fn another_unit(check: &CheckFacts) -> &'static str {
     }
 }
 
-/// The question about a record that was logged otherwise.
+/// The question about a suspected logging error.
 fn asked(one: &Otherwise) -> String {
     let left = percent(one.nrmse);
     match &one.way {
@@ -280,19 +280,20 @@ fn asked(one: &Otherwise) -> String {
             " With `{column}` and `{other}` swapped, the error is {left}: are these two columns swapped here?"
         ),
         Way::Late { seconds } => format!(
-            " With the output {} ms {}, the error is {left}: is the output delayed here, or logged on another clock?",
+            " With the output {} ms {}, the error is {left}: is the output delayed here, or logged with another clock?",
             number(1e3 * seconds.abs(), Some(0.02 * 1e3 * seconds.abs())),
             if *seconds > 0.0 { "earlier" } else { "later" }
         ),
     }
 }
 
-/// What the residual depends on, and where the record goes beyond what the model has seen.
+/// The variables that the residual depends on, and the ranges in which the record exceeds the
+/// model's own record.
 fn reasons(check: &CheckFacts) -> String {
     let mut text = match check.depends_on.first() {
         Some(first) => {
             let proposal = if first.p.is_none() {
-                " (a proposal: too few independent stretches for a test)"
+                " (tentative: too few independent stretches for a test)"
             } else {
                 ""
             };

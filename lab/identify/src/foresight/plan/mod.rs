@@ -1,11 +1,11 @@
-//! The experiment that would tell what the record cannot.
+//! The experiment that would resolve what the record cannot.
 //!
-//! Two effects are confounded where what the one adds, with all that the rest of the model
-//! can imitate taken away, looks like what the other adds. That depends on the motion. So
-//! the fitted model is run by the core along canned trajectories made of the record's own
-//! signals ([`trajectory`]), each contribution is projected off all the other columns of
-//! the model and their slopes, and off the rival with its shapes free, and what is left
-//! tells the two apart. The trajectory that leaves most is the experiment.
+//! Two effects are ambiguous if their contributions look alike after removal of everything that the
+//! rest of the model can imitate. This depends on the motion. So the fitted model is run by the
+//! core along canned trajectories made of the record's own signals ([`trajectory`]), each
+//! contribution is projected off all the other columns of the model and their slopes, and off the
+//! rival with its shapes free, and what is left tells the two apart. The trajectory that leaves
+//! most is the experiment.
 //!
 //! All of it is first-order theory at the fitted values: it says what to expect, not what
 //! will be measured.

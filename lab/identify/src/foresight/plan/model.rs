@@ -1,4 +1,4 @@
-//! A fitted model on another motion: its columns, and what an effect would add there.
+//! A fitted model on another motion: its columns, and the contribution of an effect.
 
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;

@@ -1,4 +1,4 @@
-//! Where nothing is ambiguous: the motion under which unknown parameters would show.
+//! If nothing is ambiguous: the motion that would identify the remaining parameters.
 
 use super::model::{Model, Placed};
 use super::trajectory::{trajectory, Way};

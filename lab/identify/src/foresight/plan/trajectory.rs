@@ -1,7 +1,7 @@
-//! The canned trajectories, made of what the record's own signals did.
+//! The predefined trajectories, built from the record's own signals.
 //!
-//! Time is played at another pace, strokes are scaled, or phases are drawn anew. Every
-//! signal of the record goes along, so what hung together on the rig still does.
+//! The speed is changed, strokes are scaled, or phases are drawn at random. All signals of the
+//! record are transformed together, so their relations on the rig are kept.
 
 use crate::problem::{Preparation, Prepared};
 use crate::record::{Column, Record};

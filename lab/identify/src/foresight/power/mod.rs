@@ -1,8 +1,8 @@
-//! What would have been found: the smallest effect that this record can show.
+//! The smallest effect that the search would have found in this record.
 //!
-//! "Nothing found" is worth something only beside the size of what would not have been
-//! missed. So every effect of the catalogue is planted into the user's own record, and the
-//! loop that judged the record judges it again:
+//! "Nothing found" is informative only together with the size of the effects that would have been
+//! found. Therefore every effect of the catalogue is planted into the user's own record, and the
+//! same search is run again:
 //!
 //! 1. The record is closed. Its last model stands for the rig, what that leaves for the
 //!    noise.

@@ -1,4 +1,4 @@
-//! The user's record with an effect in it that was not there.
+//! The user's record with an added effect.
 
 use crate::fit::Solution;
 use crate::model::structure::{sign, FitTerm};

@@ -1,4 +1,4 @@
-//! Where to begin: the amplitude that linear theory gives.
+//! The starting amplitude, from linear theory.
 //!
 //! The column and each trial's residual, projected off all that the model can move, give
 //! the sixteen block scores a·c'c + c'r of the scan. So the sign-flip test and the share

@@ -1,8 +1,9 @@
-//! Output stages over several columns abreast.
+//! Output stages over several columns in parallel.
 //!
-//! One column waits for its own last value at every sample, eight do not wait for each other. Each
-//! comes out bit for bit as from [`Effect::contributions`](bowden::effect::Effect::contributions):
-//! no sum is reordered, no product fused with a sum.
+//! At every sample a column waits for its own last value, but eight columns do not wait for each
+//! other. Each comes out bit for bit as from
+//! [`Effect::contributions`](bowden::effect::Effect::contributions): no sum is reordered, no
+//! product fused with a sum.
 
 use crate::problem::is_silent;
 use bowden::effect::Effect;

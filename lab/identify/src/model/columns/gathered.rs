@@ -1,4 +1,4 @@
-//! The columns as they are gathered, those that are known already from the last time.
+//! The columns as they are collected, with known columns reused.
 
 use super::series::early;
 use super::RawColumns;

@@ -1,4 +1,4 @@
-//! The hysteresis state behind the input stages.
+//! The hysteresis state after the input stages.
 
 use super::effect_column;
 use crate::model::structure::FitTerm;

@@ -1,11 +1,11 @@
 //! The columns of the regression, computed by the core itself.
 //!
-//! Every column comes from the functions that run in firmware: the hysteresis from
+//! The functions that run in firmware compute every column: the hysteresis from
 //! [`bowden::hysteresis::BoucWen`], the effects from [`bowden::effect::Effect`].
 //!
-//! Where several records lie behind each other, every state begins anew with each. Time
-//! is that since the record's beginning, as a rig warms up anew; only the step of the
-//! pretension counts from the first record on: what has slipped stays so in the next one.
+//! If several records follow one another, every state restarts in each. Time is that since the
+//! record's beginning, as a rig warms up anew; only the step of the pretension counts from the
+//! first record on: what has slipped stays so in the next one.
 
 use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId, Terms};

@@ -1,4 +1,4 @@
-//! Input stages: what they do to every column, found by differences.
+//! Input stages: their effect on every column, by differences.
 
 use super::{raw_columns, raw_columns_knowing, Beforehand, Moves, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId};

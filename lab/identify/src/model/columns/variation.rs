@@ -1,4 +1,4 @@
-//! The slope of an effect's column in one of its own parameters.
+//! The derivative of an effect's column with respect to one of its parameters.
 
 use super::{effect_column, effect_on};
 use crate::model::structure::{FitTerm, Range, Role, TermId};

@@ -1,9 +1,9 @@
-//! What the lab knows of each effect of the core's catalogue, in one table.
+//! A table of what the lab knows about each effect of the core's catalogue.
 //!
-//! The core says how an effect is computed. Here stands how the lab uses it: on which
-//! channels it is tried and at which shapes, how it is declared, over which range each shape
-//! is fitted, what it depends on, and which motion shows it. A new effect of the core needs
-//! one entry in `motion` or `whole`; a test names the effect that has none.
+//! The core defines how an effect is computed. This table defines how the lab uses it: on which
+//! channels and at which shapes it is tried, how `--baseline` names it, over which range each shape
+//! is fitted, what it depends on, and which motion reveals it. A new effect of the core needs one
+//! entry in `motion` or `whole`; a test names the effect that has none.
 
 mod motion;
 mod scale;

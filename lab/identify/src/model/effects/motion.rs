@@ -1,4 +1,4 @@
-//! Effects of what moves, and of the input torque.
+//! Effects of moving channels and of the input torque.
 
 use super::Scale::{Number, PerReach, Reach, Speed};
 use super::{

@@ -75,7 +75,7 @@ pub(super) const WHOLE: &[Entry] = &[
         tried: &[on(Place::Whole, Trials::At(&[&[Path(0.1)], &[Path(1.0)]]))],
         declared: Declared::OnChannel(&[Path(1.0)]),
         bounds: &[Bounds::Path(0.01, 30.0)],
-        of_the_record: Some("counts the travel from the start of this record"),
+        of_the_record: Some("depends on the travel since the start of this record"),
         shown_by: "many full strokes: a longer record",
         ..PLAIN
     },
@@ -97,7 +97,7 @@ pub(super) const WHOLE: &[Entry] = &[
         rank: 10,
         tried: &[on(Place::Whole, AS_IT_IS)],
         declared: Declared::OnInput(&[]),
-        of_the_record: Some("a function of time alone, from the start of this record"),
+        of_the_record: Some("a function of the time since the start of this record"),
         shown_by: LONGER,
         ..PLAIN
     },
@@ -111,7 +111,7 @@ pub(super) const WHOLE: &[Entry] = &[
         of_the_record: Some(
             "a step at one moment of this record; the model describes the time after the step",
         ),
-        shown_by: "as much motion before the step as after it",
+        shown_by: "equally much motion before and after the step",
         ..PLAIN
     },
     Entry {
@@ -128,7 +128,7 @@ pub(super) const WHOLE: &[Entry] = &[
         name: "crosstalk",
         rank: 15,
         tried: &[on(Place::Other, AS_IT_IS)],
-        shown_by: "motion of that channel apart from the input",
+        shown_by: "motion of that channel that is independent of the input",
         ..PLAIN
     },
     Entry {

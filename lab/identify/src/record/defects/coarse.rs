@@ -1,10 +1,9 @@
-//! Steps so coarse that they shape the signal: the comb of a converter with few bits.
+//! Steps so coarse that they shape the signal, as from a converter with few bits.
 //!
-//! A converter's usual steps are finer than the signal's noise, which then makes them
-//! harmless. Here most neighbours are the same, all values lie on a comb, and the steps'
-//! own error (q/√12) is a share of the signal that matters. A commanded staircase looks
-//! the same, but the other end answers each of its steps; behind a coarse sensor it goes
-//! on evenly.
+//! The steps of a converter are usually finer than the signal's noise, which makes them harmless.
+//! Here most neighbours are the same, all values lie on a comb, and the steps' own error (q/√12) is
+//! a share of the signal that matters. A commanded staircase looks the same, but the other end
+//! answers each of its steps; behind a coarse sensor it goes on evenly.
 
 use super::super::clipping::range;
 use super::companion::Companion;

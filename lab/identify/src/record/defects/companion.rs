@@ -1,4 +1,4 @@
-//! Whether another signal moves while one stands still.
+//! Whether another signal moves while one is constant.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Rows that are missing: time leaps.
+//! Missing rows: jumps of the time.
 
 use super::Found;
 use crate::record::time::median_step;

@@ -1,9 +1,8 @@
-//! Time stamps that do not say when the samples were taken.
+//! Time stamps that do not state when the samples were taken.
 //!
-//! Uneven samples with true stamps are resampled and do no harm. But where a logger stamps
-//! late, the stamps are wrong and the samples lie evenly. The signals tell which it is: a
-//! sample lies between its neighbours as time does, so that the stamps, or else the row
-//! numbers, predict it better.
+//! Uneven samples with correct stamps are resampled and do no harm. But if a logger stamps late,
+//! the stamps are wrong and the samples are evenly spaced. The signals show which is the case:
+//! either the stamps or the row numbers predict a sample better from its neighbours.
 
 use super::Found;
 use crate::record::time::median_step;
@@ -37,7 +36,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
     let rms = (known.iter().map(|s| s * s).sum::<f64>() / known.len() as f64).sqrt();
     Some(Found {
         message: format!(
-            "the stamps jitter by {:.0} % of a step (rms), but the samples are evenly spaced: an error of {:.1} % of a signal's spread; --rate HZ takes time from the row number",
+            "the time stamps jitter by {:.0} % of a step (rms), but the samples are evenly spaced: an error of {:.1} % of a signal's spread; --rate HZ computes the time from the row number",
             100.0 * rms,
             100.0 * error
         ),

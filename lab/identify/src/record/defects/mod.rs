@@ -1,4 +1,4 @@
-//! Faults of the measurement that show before anything is fitted.
+//! Faults of the measurement that are visible before any fit.
 //!
 //! A sensor that stands still while the rest moves, one at the end of its range, samples that
 //! leap away and back, steps so coarse that they shape the signal, gaps in time, time stamps

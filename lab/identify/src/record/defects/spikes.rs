@@ -1,5 +1,5 @@
-//! Single samples that leap away from a signal and back: electromagnetic interference, a
-//! dropped frame, a marker such as −999 in the place of a value.
+//! Single samples that jump away from a signal and back: electromagnetic interference, a dropped
+//! frame, or a marker such as −999 instead of a value.
 //!
 //! A spike leaps further than the signal ever goes in one sample and is back where it came from
 //! a few samples later. A step does not come back, a burst of oscillation leaps several times
@@ -137,7 +137,7 @@ impl<'a> Leaps<'a> {
         };
         (share <= NATURE).then(|| Found {
             message: format!(
-                "spikes: up to {} for at most {within}, {}; a straight line replaces them, {:.2} % of the samples",
+                "spikes: up to {} for at most {within}, {}; replaced by a straight line, {:.2} % of the samples",
                 three_digits(highest),
                 times(samples.len()),
                 100.0 * share

@@ -1,10 +1,10 @@
-//! A sensor that stands still while what it measures moves.
+//! A sensor that is constant while the measured quantity moves.
 //!
-//! A run of bit-identical values is nothing by itself: references rest, encoders wait for
-//! the next count, dry friction without noise is flat. It is a stuck sensor where the other
-//! signals move on in the middle of the run and either the sensor's noise is gone with it,
-//! or the signal leaps away at its end, further than it ever goes in one sample. Where
-//! most of the record is such runs the signal is flat by nature.
+//! A run of bit-identical values alone proves nothing: references rest, encoders wait for the next
+//! count, dry friction without noise is flat. The sensor is stuck if the other signals move during
+//! the run, and if either the sensor's noise disappears with it or the signal jumps at its end,
+//! further than it ever moves in one sample. If most of the record consists of such runs, the
+//! signal is flat by nature.
 
 use super::companion::Companion;
 use super::{share, times, Found};

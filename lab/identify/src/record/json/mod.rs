@@ -1,7 +1,7 @@
-//! JSON: an array of records, one record a line, or an object of columns.
+//! JSON: an array of records, one record per line, or an object of columns.
 //!
-//! A record is an object; what is within it has its path for a name, `pose.x` or `pose.0`. A row is
-//! an array in the order of names next to it or in `--names`. The table may be within other data, as
+//! A record is an object; a nested value is named by its path, `pose.x` or `pose.0`. A row is an
+//! array in the order of names next to it or in `--names`. The table may be within other data, as
 //! long as there is one. Its cells become text, so that stamps, gaps and faults are those of any
 //! other text; a line is a record.
 
@@ -131,7 +131,7 @@ fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, Record
         }),
         (true, Some(rows)) if tables.is_empty() => of_rows(rows, names),
         (_, None) => Err(RecordError::new(
-            "the JSON holds no table: allowed are an array of records, one record a line, or an object of columns",
+            "the JSON holds no table: allowed are an array of records, one record per line, or an object of columns",
         )),
         (_, Some(last)) => {
             let paths = tables.iter().chain([&last]).map(|own| own.path.as_str());
@@ -320,7 +320,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
         }
         // Names that change from record to record name no columns.
         if table.columns.len() > MIN_SAMPLES * MIN_SAMPLES {
-            let message = "the records up to here have too many different names for a table";
+            let message = "the records so far have too many different names for a table";
             return Err(RecordError::at(row + 1, message));
         }
     }

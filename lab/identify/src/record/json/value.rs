@@ -1,4 +1,4 @@
-//! The values of a text of JSON, in their order.
+//! The values of a JSON text, in order.
 
 use super::super::error::{shown, RecordError, NAME_LENGTH};
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -30,7 +30,7 @@ pub(super) fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, R
             Err(error) if error.is_eof() && all.len() > 1 => {
                 let line = all.len() + 1;
                 notes.push(format!(
-                    "line {line}, the last one, dropped: the file ends within it"
+                    "line {line}, the last one, dropped: it is truncated"
                 ));
             }
             Err(error) => {

@@ -96,7 +96,7 @@ impl<'a> Elements<'a> {
         }
         let length = self.order.u32(&tag[4..]) as usize;
         let bytes = behind.get(..length);
-        let bytes = bytes.ok_or_else(|| damaged("it ends within an element"))?;
+        let bytes = bytes.ok_or_else(|| damaged("it ends in the middle of an element"))?;
         let padded = match word {
             COMPRESSED => length,
             _ => length.next_multiple_of(8),
