@@ -334,7 +334,7 @@ impl<T: Real> IterativeLearning<T> {
     /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
     ///   jitter the phase passes cells several times, and the law learns each time; in that case
     ///   filter the phase, or set `learns` to `false`.
-    /// - The longest step passes four cells, and sums over `2·half_width + 1` cells for each.
+    /// - The most expensive step completes four cells, each a sum over `2·half_width + 1` cells.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,

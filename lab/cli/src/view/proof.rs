@@ -5,7 +5,9 @@ use anstyle::AnsiColor;
 use bowden_trials::facts::{above, fixed, scientific, Named, Proof, Sides, Towards};
 
 /// Of a proof in which the limit of the command may be met.
-const AT_THE_LIMIT: &str = "Within the bounds of the proof the law may ask for commands beyond the limit, so the limit may become active. The error bound still holds, because the command at its limit can hold the reference against the load (theorems/Limit.v).";
+const AT_THE_LIMIT: &str = "Within the bounds of the proof the law may demand commands beyond the \
+     limit, so the limit may become active. The error bound still holds, because the command at \
+     its limit can hold the reference against the load (theorems/Limit.v).";
 
 /// Schema `bowden.certificate/1`.
 ///
