@@ -16,7 +16,7 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     match added.len() {
         0 if ledger.unknown.is_some() => {
             return format!(
-                "The baseline model lacks something that matches no effect in the catalogue; with a free curve for it the held-out error goes {}.",
+                "The baseline model lacks something that matches no effect in the catalogue; with a free curve instead, the held-out error goes {}.",
                 from_to(before_after(data, ledger, done))
             )
         }

@@ -26,7 +26,7 @@ impl Finding {
             }
             Self::FilesScaled { files, of, unit } => scaled(files, *of, unit.as_deref()),
             Self::ChannelDiffers(apart) => differs(apart),
-            Self::RowsShuffled { input, output } => format!("This record gives no model: neighbouring rows of the input `{input}` have nothing in common, but `{output}` follows it row by row. Are the rows in time order?"),
+            Self::RowsShuffled { input, output } => format!("This record gives no model: neighbouring rows of the input `{input}` are unrelated, but `{output}` follows it row by row. Are the rows in time order?"),
             Self::InputAtRest { input } => format!("This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."),
             Self::ChannelTakesOver { input, explains, channels, alone } => format!(
                 "This is not a model of the transmission: {}, although in the baseline model alone the input explains {}. A channel repeats the output, as the angle behind a spring does: omit its column.",
@@ -45,7 +45,7 @@ impl Finding {
                     terms => format!(" The search added {}.", terms.join(", then ")),
                 };
                 format!(
-                    "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. The two segments differ: do not use this model on other data. Has the rig changed, or the sensor of `{output}`?{added}",
+                    "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. The two segments differ: do not use this model on other data. Has the rig or the sensor of `{output}` changed?{added}",
                     percent(*fit),
                     percent(*held_out),
                 )
@@ -70,9 +70,9 @@ impl Finding {
                 if !terms.is_empty() {
                     text += &format!(" The search added {}", terms.join(", then "));
                     text += &match *falls_up_to {
-                        0 => "; the first one already raises the error.".to_owned(),
-                        n if n < terms.len() => format!("; the error falls up to {}.", terms[n - 1]),
-                        _ => "; the final fit, on more data, raises the error.".to_owned(),
+                        0 => "; the first of them already raises the error.".to_owned(),
+                        n if n < terms.len() => format!("; the error falls until {} is added.", terms[n - 1]),
+                        _ => "; only the final fit, on more data, raises the error.".to_owned(),
                     };
                 }
                 text
@@ -90,7 +90,7 @@ impl Finding {
                     (Some(true), _) => "; it looks like white noise and depends on no measured quantity",
                     // The first sentence says already that no effect was found.
                     (Some(false), 0) => "; it is coloured",
-                    (Some(false), _) => "; it is coloured, but no further effect of the catalogue explains it",
+                    (Some(false), _) => "; it is coloured, but no further effect in the catalogue explains it",
                 };
                 format!("{size}{colour}.")
             }
@@ -101,7 +101,7 @@ impl Finding {
                     false => "",
                 };
                 format!(
-                    "The residual depends on {variable}; to first order, the best one or two effects of the catalogue explain {:.0} % of what a curve over it explains{but}.",
+                    "The residual depends on {variable}; to first order, the best one or two effects in the catalogue explain {:.0} % of what a curve over it explains{but}.",
                     100.0 * by_effects
                 )
             }
@@ -111,7 +111,7 @@ impl Finding {
             Self::TooFewBlocks { terms } => {
                 let names = match terms {
                     0 => "only a large effect would be found",
-                    _ => "the named terms are proposals",
+                    _ => "the named terms are only candidates",
                 };
                 format!("The record has too few independent stretches for a test: {names}.")
             }
@@ -158,8 +158,8 @@ impl Finding {
             Self::OutputLeads { seconds, may_be_effect } => {
                 let ms = 1e3 * seconds;
                 match may_be_effect {
-                    true => format!("In the model the output precedes the input by about {ms:.1} ms, which is not causal: either the two were logged on different clocks, or the lead is an effect that the model lacks."),
-                    false => format!("The output precedes the input by about {ms:.1} ms, which is not causal: were both logged on one clock?"),
+                    true => format!("In the model the output precedes the input by about {ms:.1} ms, which is not causal: either the two were logged with different clocks, or the lead is an effect that the model lacks."),
+                    false => format!("The output precedes the input by about {ms:.1} ms, which is not causal: were both logged with the same clock?"),
                 }
             }
             Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
@@ -174,10 +174,10 @@ impl Finding {
                 };
                 format!("Presliding and backlash are one function with opposite signs: either name is right{own}.")
             }
-            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input: is it a drift of `{output}`, for example of a sensor that warms up? A record made after the rig has run for longer would show which of the two it is."),
+            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input: is it a drift of `{output}`, for example of a sensor that warms up? A record of a rig that has run for longer would show which of the two it is."),
             Self::HysteresisLeftOut => "The baseline hysteresis is excluded from the model: this record cannot distinguish it from a spring and an offset.".to_owned(),
             Self::HysteresisCancelled { share } => format!(
-                "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains cancel each other, and the model holds only within the recorded range.",
+                "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains nearly cancel, and the model holds only within the recorded range.",
                 percent(*share)
             ),
             Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.", terms.join(", ")),
@@ -194,7 +194,7 @@ impl Finding {
             Self::RoundRaises { term, after: 0 } => format!("On held-out data the first term, {term}, already raises the error."),
             Self::RoundRaises { term, after } => format!("On held-out data the error falls up to round {after}; {term} raises it."),
             Self::FileWorse { path, before, after } => format!("The error rises for {path}: {:.1} % → {:.1} %.", 100.0 * before, 100.0 * after),
-            Self::ManyTerms { .. } => "Terms after the third one carry little meaning: several effects would fit equally well.".to_owned(),
+            Self::ManyTerms { .. } => "Terms after the third one have little meaning: several effects would fit equally well.".to_owned(),
         }
     }
 }

@@ -131,7 +131,7 @@ impl Asked {
         let label = label(records);
         if data.is_shuffled() {
             return Err(format!(
-                "{label}: neighbouring rows of `{}` have nothing in common, but the output follows it row by row: the rows must be in time order",
+                "{label}: neighbouring rows of `{}` are unrelated, but the output follows it row by row: the rows must be in time order",
                 data.input.name
             ));
         }

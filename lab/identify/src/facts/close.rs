@@ -116,7 +116,7 @@ impl Close {
         }
     }
 
-    /// The final model; what the signals are worth for it goes to the notes and the ledger.
+    /// The final model; remarks on its signals go to the notes and the results table.
     fn concluded(&self, records: &[Record], data: &mut Prepared, ledger: &mut Ledger) -> FinalFit {
         if ledger.integrates {
             // What lags by a quarter of a period is no friction, with either sign.

@@ -51,8 +51,8 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
     }
 }
 
-/// Which column plays which part. Of two columns of one name neither can be read; what is not read
-/// may have any name.
+/// The role of each column. Of two columns of one name neither can be read; what is not read may
+/// have any name.
 pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
     let said = take_units(header, options);
     let mut roles = parts(header, options)?;
