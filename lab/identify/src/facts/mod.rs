@@ -59,6 +59,8 @@ pub use crate::fit::Segments;
 pub use crate::foresight::plan::{Aim, Experiment};
 pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
 pub use crate::ledger::{ChannelApart, FileApart, Gate, Grade, Share};
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+pub use crate::problem::clock::set_clock;
 pub use crate::problem::cost::Counts;
 pub use crate::record::{Defect, Mode, Options, Record, RecordError};
 pub use crate::score::autocorrelation::Autocorrelation;

@@ -29,6 +29,7 @@ mod altered;
 mod answered;
 mod blind;
 mod build;
+pub mod clock;
 pub mod cost;
 pub mod filter;
 mod floor;

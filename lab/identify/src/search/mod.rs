@@ -36,6 +36,7 @@ use crate::fit::{fit, glance, Solution};
 use crate::ledger::{Grade, Ledger};
 use crate::model::declared::declared as baseline_term;
 use crate::model::structure::{FitTerm, Structure};
+use crate::problem::clock::Moment;
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::explains::integrates;
@@ -45,7 +46,6 @@ use linear::Linear;
 pub use policy::MOST_NAMES;
 use refit::on;
 use run::Search;
-use std::time::Instant;
 
 /// Finds the effects that a baseline model lacks. `progress` receives one message a step.
 ///
@@ -87,7 +87,7 @@ pub fn close_within(
     limits: impl Into<Limits>,
     mut progress: impl FnMut(&str),
 ) -> Result<Ledger, String> {
-    let begun = Instant::now();
+    let begun = Moment::now();
     let cannot = "the baseline model cannot be fitted to this record";
     let limits = limits.into();
     let most = limits.names.min(MOST_NAMES);

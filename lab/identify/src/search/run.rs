@@ -12,11 +12,11 @@ use crate::fit::settle::settle;
 use crate::fit::{fit, Solution};
 use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
+use crate::problem::clock::Moment;
 use crate::problem::Prepared;
 use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Least decrease of the criterion that counts.
 pub(super) const FALLEN: f64 = 1e-3;
@@ -58,7 +58,7 @@ pub(super) struct Search<'a> {
     pub(super) is_cut: bool,
     pub(super) most: usize,
     /// Start and length \[s\] of the time budget.
-    budget: Option<(Instant, f64)>,
+    budget: Option<(Moment, f64)>,
     pub(super) visited: Vec<Vec<Identity>>,
     /// Sets in which a power law has been tried in the place of named friction.
     pub(super) exchanges: Vec<Vec<Identity>>,
@@ -117,7 +117,7 @@ impl<'a> Search<'a> {
     /// Runs until no move is accepted or the time budget is spent; returns whether it was spent.
     pub(super) fn run(
         &mut self,
-        budget: Option<(Instant, f64)>,
+        budget: Option<(Moment, f64)>,
         mut progress: impl FnMut(&str),
     ) -> bool {
         self.budget = budget;
@@ -175,7 +175,7 @@ impl<'a> Search<'a> {
 
     fn is_over(&self) -> bool {
         self.budget
-            .is_some_and(|(begun, seconds)| begun.elapsed().as_secs_f64() >= seconds)
+            .is_some_and(|(begun, seconds)| begun.elapsed() >= seconds)
     }
 
     /// The last model, to first order.
