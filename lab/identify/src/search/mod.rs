@@ -31,6 +31,7 @@ mod refit;
 mod run;
 mod sought;
 pub mod support;
+mod told;
 
 use crate::fit::{fit, glance, Solution};
 use crate::ledger::{Grade, Ledger};

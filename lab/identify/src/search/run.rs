@@ -6,6 +6,7 @@ use super::linear::{Linear, Member};
 use super::moves::{is_same, Move, Phase, Wanted};
 use super::policy;
 use super::refit::{on, present, Tried};
+use super::told::reached;
 use crate::fit::projection::Span;
 use crate::fit::search::descend;
 use crate::fit::settle::settle;
@@ -121,11 +122,16 @@ impl<'a> Search<'a> {
         mut progress: impl FnMut(&str),
     ) -> bool {
         self.budget = budget;
+        let mut told = 0;
         for turn in 1..=TURNS {
             if self.is_over() {
                 return true;
             }
             let found = self.now.structure.terms.len() - self.declared.structure.terms.len();
+            if self.reached.len() > told {
+                progress(&reached(self.data, &self.now));
+                told = self.reached.len();
+            }
             progress(&format!(
                 "searching for missing terms, round {turn}, found so far: {found}"
             ));
