@@ -62,7 +62,10 @@ pub use crate::ledger::{ChannelApart, FileApart, Gate, Grade, Share};
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use crate::problem::clock::set_clock;
 pub use crate::problem::cost::Counts;
-pub use crate::record::{Defect, Mode, Options, Record, RecordError};
+pub use crate::record::{
+    excerpt, outline, Defect, Line as TextLine, Mode, Options, Outline, Outlined,
+    Part as ColumnPart, Record, RecordError,
+};
 pub use crate::score::autocorrelation::Autocorrelation;
 pub use crate::score::binned::{Bin, Mean};
 pub use crate::score::blocks::BLOCKS;

@@ -33,18 +33,41 @@ pub(super) struct Table<'a> {
     pub(super) notes: Vec<String>,
 }
 
+/// What gives the columns of a header their parts.
+type Assign = fn(&mut Header, &Options) -> Result<Roles, RecordError>;
+
+/// Finds a table of numbers whatever its columns are called; every column has a part.
+pub(super) fn any<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
+    let assign = roles::of_any;
+    if !options.names.is_empty() {
+        return nameless(text, options, assign);
+    }
+    let rows = match options.header_line {
+        Some(line) => {
+            let (start, before) = start_of(text, line)?;
+            Rows::new(&text[start..]).after(before)
+        }
+        None => match below(text, options, assign) {
+            Some(Ok(table)) => return Ok(table),
+            _ => Rows::new(text),
+        },
+    };
+    named(rows, options, assign).and_then(with_units)
+}
+
 /// Finds the table that has the columns which the options ask for.
 pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
     if !options.names.is_empty() {
-        return nameless(text, options);
+        return nameless(text, options, roles::assign);
     }
     if let Some(line) = options.header_line {
         let (start, before) = start_of(text, line)?;
-        return named(Rows::new(&text[start..]).after(before), options).and_then(with_units);
+        let rows = Rows::new(&text[start..]).after(before);
+        return named(rows, options, roles::assign).and_then(with_units);
     }
-    match named(Rows::new(text), options) {
+    match named(Rows::new(text), options, roles::assign) {
         Ok(table) => with_units(table),
-        Err(error) => below(text, options).unwrap_or(Err(error)),
+        Err(error) => below(text, options, roles::assign).unwrap_or(Err(error)),
     }
 }
 
@@ -66,10 +89,14 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
 }
 
 /// A table whose first row is the header.
-fn named<'a>(mut rows: Rows<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
+fn named<'a>(
+    mut rows: Rows<'a>,
+    options: &Options,
+    assign: Assign,
+) -> Result<Table<'a>, RecordError> {
     let (text, _) = rows.rest();
     let mut header = header::read(&mut rows)?;
-    let roles = roles::assign(&mut header, options)?;
+    let roles = assign(&mut header, options)?;
     let (below_names, _) = rows.rest();
     Ok(Table {
         names: &text[..text.len() - below_names.len()],
@@ -277,7 +304,11 @@ impl<'a> Head<'a> {
 }
 
 /// The first table, whose names are given.
-fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
+fn nameless<'a>(
+    text: &'a str,
+    options: &Options,
+    assign: Assign,
+) -> Result<Table<'a>, RecordError> {
     let names = &options.names;
     let heads = [b'\t', b';', b','].map(|separator| Head::new(text, separator));
     let tables = heads
@@ -305,7 +336,7 @@ fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordErr
         return Err(RecordError::at(line + 1, message));
     };
     let mut header = Header::given(line + 1, names);
-    let roles = roles::assign(&mut header, options)?;
+    let roles = assign(&mut header, options)?;
     let rows = Rows::separated_by(head.separator, &text[head.lines[line].0..]).after(line);
     let above = (line > 0).then(|| passed_over(1, line, "above the values"));
     Ok(Table {
@@ -320,7 +351,11 @@ fn nameless<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordErr
 
 /// The first table below the first line whose names are those that are asked for; else why the
 /// names above the first table are not.
-fn below<'a>(text: &'a str, options: &Options) -> Option<Result<Table<'a>, RecordError>> {
+fn below<'a>(
+    text: &'a str,
+    options: &Options,
+    assign: Assign,
+) -> Option<Result<Table<'a>, RecordError>> {
     // Of the row just above the first table, units apart: it was meant to have the names.
     let mut refused: Option<Option<RecordError>> = None;
     for separator in [b'\t', b';', b','] {
@@ -331,7 +366,7 @@ fn below<'a>(text: &'a str, options: &Options) -> Option<Result<Table<'a>, Recor
                     continue;
                 }
                 let own = Rows::separated_by(separator, &text[head.lines[names].0..]);
-                match named(own.after(names), options) {
+                match named(own.after(names), options, assign) {
                     Ok(table) => {
                         let first = head.behind_comments(first, names);
                         let rows = &text[head.lines[first].0..];

@@ -42,6 +42,7 @@ mod layout;
 mod mat;
 mod npz;
 mod number;
+mod outline;
 mod parquet_file;
 mod roles;
 mod rows;
@@ -63,6 +64,8 @@ pub(crate) use defects::bridged;
 pub use defects::{Defect, DefectKind, Steps};
 pub use error::RecordError;
 pub(crate) use header::nearest;
+pub use outline::{excerpt, outline, Line, Outline, Outlined};
+pub use roles::Part;
 pub(crate) use units::is_velocity;
 
 use header::Header;

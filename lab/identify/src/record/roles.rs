@@ -5,6 +5,19 @@ use super::header::{missing, require, twice, Header};
 use super::series::{self, Series};
 use super::{units, Mode, Options};
 
+/// The part of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The time.
+    Time,
+    /// The transmission's input.
+    Input,
+    /// The transmission's output.
+    Output,
+    /// A further channel of that name.
+    Channel(String),
+}
+
 /// Indices into the header's columns.
 pub(super) struct Roles {
     pub(super) mode: Mode,
@@ -65,6 +78,56 @@ pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, Re
         }
     }
     Ok(roles)
+}
+
+/// Every column has a part: a table is looked at before anyone has said which columns are meant.
+pub(super) fn of_any(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
+    let time = time(header, options).ok();
+    let mut others = (0..header.columns.len()).filter(|index| Some(*index) != time);
+    let (Some(input), Some(output)) = (others.next(), others.next()) else {
+        return Err(RecordError::at(header.line, "has fewer than two columns"));
+    };
+    Ok(Roles {
+        mode: Mode::Torque,
+        time,
+        input,
+        output,
+        channels: others
+            .map(|index| (header.columns[index].name.clone(), Series::Column(index)))
+            .collect(),
+        notes: Vec::new(),
+    })
+}
+
+/// The columns whose part the options or their names tell, though not all parts are known.
+pub(super) fn likely(header: &Header, options: &Options) -> Vec<(usize, Part)> {
+    let given = |name: &Option<String>| name.as_ref().and_then(|name| header.find(name));
+    let usual = |names: [&str; 2]| names.into_iter().find_map(|name| header.find_usual(name));
+    let ends = [
+        (time(header, options).ok(), Part::Time),
+        (
+            given(&options.input).or_else(|| usual(["tau_i", "x"])),
+            Part::Input,
+        ),
+        (
+            given(&options.output).or_else(|| usual(["tau_o", "f"])),
+            Part::Output,
+        ),
+    ];
+    let channels = options
+        .channels
+        .iter()
+        .map(|(name, column)| (header.find(column), Part::Channel(name.clone())));
+    let names = [Mode::Torque, Mode::Displacement].map(default_channels);
+    let usual = names.into_iter().flatten();
+    let usual = usual.map(|name| (header.find_usual(name), Part::Channel((*name).to_owned())));
+    let mut found: Vec<(usize, Part)> = Vec::new();
+    for (index, part) in ends.into_iter().chain(channels).chain(usual) {
+        if let Some(index) = index.filter(|index| found.iter().all(|(own, _)| own != index)) {
+            found.push((index, part));
+        }
+    }
+    found
 }
 
 /// Takes the units that the options state after names of columns.

@@ -69,6 +69,23 @@ pub(super) fn of_parquet(bytes: &[u8]) -> Result<Columns, RecordError> {
     })
 }
 
+impl Columns {
+    /// The header, and the values of all columns; NaN where there is none.
+    pub(super) fn all(self) -> (Header, Vec<Vec<f64>>) {
+        let count = self.header.columns.len();
+        let values = match self.stored {
+            Stored::Values(all) => all,
+            Stored::Parquet(file) => (0..count)
+                .map(|index| {
+                    let own = file.read(index).unwrap_or_default();
+                    own.into_iter().map(|v| v.unwrap_or(f64::NAN)).collect()
+                })
+                .collect(),
+        };
+        (self.header, values)
+    }
+}
+
 /// Refuses options for the names of a text, which the columns of such a file have.
 fn without_lines(options: &Options) -> Result<(), RecordError> {
     if let Some(line) = options.header_line {
