@@ -64,6 +64,14 @@ impl Asked {
         parse(csv, label, &self.options).map_err(|e| e.to_string())
     }
 
+    /// The same.
+    ///
+    /// # Errors
+    /// The refusal, with its place.
+    pub fn read_text_or_refuse(&self, csv: &[u8], label: &str) -> Result<Record, RecordError> {
+        parse(csv, label, &self.options)
+    }
+
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
@@ -88,6 +96,27 @@ impl Asked {
             Ok(record)
         })?;
         Ok((records, sources))
+    }
+
+    /// As [`read_together_with_sources`](Self::read_together_with_sources), of files in memory, each
+    /// with the label that stands for its name.
+    ///
+    /// # Errors
+    /// As [`read_together`](Self::read_together).
+    pub fn read_together_in_memory(
+        &self,
+        files: &[(&str, &[u8])],
+    ) -> Result<(Vec<Record>, Vec<Source>), String> {
+        let paths: Vec<PathBuf> = files.iter().map(|(label, _)| label.into()).collect();
+        let mut rest = files.iter();
+        let records = Self::all_of(&paths, |_| {
+            let (label, bytes) = rest.next().ok_or("no file is left")?;
+            self.read_text(bytes, label)
+        })?;
+        let sources = files
+            .iter()
+            .map(|(label, bytes)| Source::of_bytes(label, bytes));
+        Ok((records, sources.collect()))
     }
 
     fn all_of(
