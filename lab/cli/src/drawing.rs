@@ -93,7 +93,8 @@ pub fn provenance(sources: Vec<Source>) -> Provenance {
 }
 
 /// An argument as a shell takes it back.
-fn quoted(argument: &str) -> String {
+#[must_use]
+pub fn quoted(argument: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_=.,:/@+%".contains(c);
     match !argument.is_empty() && argument.chars().all(plain) {
         true => argument.to_owned(),

@@ -24,6 +24,7 @@ mod rows;
 mod usage;
 pub mod view;
 
+pub use drawing::quoted;
 pub use progress::share;
 
 use clap::{Parser, Subcommand};

@@ -1,6 +1,7 @@
 //! How text is laid out: blocks with a label, wrapped prose, tables that drop columns.
 
 use anstyle::{AnsiColor, Style};
+#[cfg(not(target_family = "wasm"))]
 use comfy_table::Table;
 use std::fmt::Write as _;
 
@@ -30,6 +31,10 @@ impl Width {
     /// The terminal on stderr, or no limit if stderr is none.
     #[must_use]
     pub fn of_stderr() -> Self {
+        // A web page has no terminal.
+        #[cfg(target_family = "wasm")]
+        let width = None;
+        #[cfg(not(target_family = "wasm"))]
         let width = Table::new().use_stderr().width();
         width.map_or(Self::unlimited(), Self::of)
     }
