@@ -3,6 +3,7 @@
 //! A subcommand calls one function of [`bowden_lab::facts`] or [`bowden_trials::facts`] and passes
 //! the answer to a [`view`] or to `bowden_page`. This package runs no fit and computes no number.
 
+mod bar;
 mod certify;
 mod check;
 mod close;

@@ -5,7 +5,7 @@
 //! so the bar never moves backwards and never waits at its end. The forecast is as rough as the
 //! shares are.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::bar::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::time::Duration;
 

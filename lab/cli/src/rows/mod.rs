@@ -8,11 +8,11 @@
 mod row;
 mod table;
 
+use crate::bar::{ProgressBar, ProgressStyle};
 use crate::view::json;
 use crate::{outputs, reading, Failure};
 use bowden_lab::facts::{close, Asked, Close as Question, Detail, Meter};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use row::Row;
 use std::ffi::OsString;
 use std::io::IsTerminal as _;
