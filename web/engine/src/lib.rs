@@ -1,0 +1,127 @@
+//! The lab in a browser tab: bytes in, the program's answers out.
+//!
+//! A request is one line of JSON, which bytes of a file may follow; so is an answer, which its files
+//! follow. An [`Engine`] keeps the files that were added and answers [one request](Engine::answer)
+//! after another. It computes nothing itself: every answer is one of [`bowden_lab::facts`], in the
+//! views of the program `bowden`, so that the tab and the terminal show the same numbers.
+//!
+//! In WebAssembly, `abi` carries these bytes over the border: the only unsafe code.
+
+#[cfg(target_family = "wasm")]
+mod abi;
+mod answer;
+mod command;
+mod identify;
+mod look;
+mod options;
+mod validate;
+
+pub use answer::Answer;
+
+use options::Choices;
+use serde::Deserialize;
+
+/// The label of the built-in record, as the program writes it.
+pub const EXAMPLE: &str =
+    "built-in synthetic record (bowden generate --mode torque --effect viscous --seed 7)";
+
+/// A file that was added.
+struct File {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+/// The files of a tab.
+#[derive(Default)]
+pub struct Engine {
+    files: Vec<File>,
+}
+
+/// What a page asks.
+#[derive(Deserialize)]
+#[serde(tag = "ask", rename_all = "kebab-case")]
+enum Request {
+    /// Keeps the file whose bytes follow; a file of that name is replaced.
+    Add { name: String },
+    /// Keeps the built-in record.
+    Example,
+    /// Forgets all files.
+    Clear,
+    /// The columns of a file, and what the reader says of it.
+    Look {
+        file: String,
+        #[serde(default)]
+        choices: Choices,
+    },
+    /// The model of one or several files.
+    Identify {
+        files: Vec<String>,
+        #[serde(default)]
+        choices: Choices,
+    },
+    /// Whether a model, the bytes that follow, holds on a file.
+    Validate {
+        model: String,
+        file: String,
+        #[serde(default)]
+        choices: Choices,
+    },
+}
+
+impl Engine {
+    /// Answers a request: a line of JSON and the bytes that follow it. `tell` receives one message a
+    /// step.
+    #[must_use]
+    pub fn answer(&mut self, request: &[u8], tell: &dyn Fn(&str)) -> Answer {
+        match self.answered(request, tell) {
+            Ok(answer) => answer,
+            Err(line) => Answer::refusal(&line),
+        }
+    }
+
+    fn answered(&mut self, request: &[u8], tell: &dyn Fn(&str)) -> Result<Answer, String> {
+        let end = request.iter().position(|byte| *byte == b'\n');
+        let (line, rest) = request.split_at(end.unwrap_or(request.len()));
+        let bytes = rest.get(1..).unwrap_or_default();
+        let request: Request = serde_json::from_slice(line).map_err(|e| format!("request: {e}"))?;
+        match request {
+            Request::Add { name } => {
+                self.keep(name, bytes.to_vec());
+                Ok(Answer::default())
+            }
+            Request::Example => {
+                let stored = bowden_synth::stored_csv();
+                self.keep(EXAMPLE.to_owned(), stored.into_bytes());
+                Ok(Answer::default())
+            }
+            Request::Clear => {
+                self.files.clear();
+                Ok(Answer::default())
+            }
+            Request::Look { file, choices } => look::look(self.file(&file)?, &choices),
+            Request::Identify { files, choices } => {
+                let files: Vec<&File> = files
+                    .iter()
+                    .map(|name| self.file(name))
+                    .collect::<Result<_, _>>()?;
+                identify::identify(&files, &choices, tell)
+            }
+            Request::Validate {
+                model,
+                file,
+                choices,
+            } => validate::validate((&model, bytes), self.file(&file)?, &choices),
+        }
+    }
+
+    fn keep(&mut self, name: String, bytes: Vec<u8>) {
+        self.files.retain(|file| file.name != name);
+        self.files.push(File { name, bytes });
+    }
+
+    fn file(&self, name: &str) -> Result<&File, String> {
+        let mut all = self.files.iter();
+        all.find(|file| file.name == name)
+            .ok_or_else(|| format!("{name}: no such file in this tab"))
+    }
+}
