@@ -1,0 +1,251 @@
+//! The page in Chromium: its answers are the program's, and nothing leaves the tab.
+
+use crate::browser::Browser;
+use crate::native::Native;
+use crate::{build, failed, pages, root, serve, Done, Ended};
+use serde_json::{json, Value};
+
+/// Largest difference of two numbers of one answer, as a share of the larger one. Elementary functions
+/// differ in the last bit between a browser and a C library, and a fit ends where its steps are small.
+const SAME: f64 = 1e-4;
+/// Widths of a telephone and of a desk \[CSS pixels\].
+const WIDTHS: [u32; 2] = [390, 1280];
+
+/// Runs every check.
+pub fn check() -> Done {
+    let dist = root().join("dist");
+    build::build(&dist)?;
+    let mut page = Browser::start()?;
+    let native = Native::build()?;
+    let address = serve::in_background(dist.clone())?;
+    page.open(&format!("{address}/"))?;
+
+    pages::example(&mut page)?;
+    identified(&mut page, &native, "the built-in record")?;
+    validates(&mut page, &native)?;
+    takes_apart(&mut page)?;
+    fits_each_width(&mut page)?;
+    page.value("bowden.state.files.splice(0)")?;
+
+    pages::choose(&mut page, &[native.folder().join("rig.csv")])?;
+    asks_for_columns(&mut page)?;
+    pages::part(&mut page, "motor_Nm", "input")?;
+    pages::part(&mut page, "joint_Nm", "output")?;
+    pages::channel(&mut page, "motor_rad", "phi_p")?;
+    page.value("(() => { const mode = document.getElementById('mode'); mode.value = 'torque'; mode.dispatchEvent(new Event('change', { bubbles: true })); })()")?;
+    page.until("!document.getElementById('identify').disabled")?;
+    identified(&mut page, &native, "rig.csv with chosen columns")?;
+    page.value(
+        "(() => { document.getElementById('mode').value = ''; bowden.state.files.splice(0); })()",
+    )?;
+
+    for names in [&["damper.csv"][..], &["straight.csv", "bent.csv"][..]] {
+        let files: Vec<_> = names
+            .iter()
+            .map(|name| native.folder().join(name))
+            .collect();
+        pages::choose(&mut page, &files)?;
+        identified(&mut page, &native, &names.join(" and "))?;
+        page.value("bowden.state.files.splice(0)")?;
+    }
+    marks_the_place(&mut page, &native)?;
+    cancels(&mut page, &native)?;
+    stays_alone(&mut page, &address)?;
+
+    page.open(&format!(
+        "file://{}",
+        dist.canonicalize()?.join("bowden.html").display()
+    ))?;
+    pages::example(&mut page)?;
+    pages::identify(&mut page)?;
+    println!("bowden.html identifies the built-in record from the disk");
+    stays_alone(&mut page, "file://")
+}
+
+/// The answer of the page is the program's.
+fn identified(page: &mut Browser, native: &Native, what: &str) -> Done {
+    let seconds = pages::identify(page)?;
+    let command = pages::command(page)?;
+    let mut worst = 0.0;
+    same(
+        &native.run(&command)?,
+        &pages::json(page)?,
+        what,
+        &mut worst,
+    )?;
+    let (own, other) = (pages::file(page, "report.html")?, native.report()?);
+    let is_same = if own == other {
+        "the same bytes"
+    } else {
+        "the same but for last digits"
+    };
+    if words(&own) != words(&other) {
+        return Err(failed(format!(
+            "{what}: the report has other words than the program's"
+        )));
+    }
+    println!("{what}: {seconds:.2} s, JSON within {worst:.0e}, report {is_same}\n  {command}");
+    Ok(())
+}
+
+/// The text of a page without its numbers.
+fn words(html: &str) -> String {
+    let is_number = |c: char| c.is_ascii_digit() || ".-+−±eM Lm,".contains(c);
+    html.chars().filter(|c| !is_number(*c)).collect()
+}
+
+/// Names and words are equal; numbers differ at most by [`SAME`]. The cost is that of a machine.
+fn same(own: &Value, other: &Value, at: &str, worst: &mut f64) -> Done {
+    let differ = || {
+        Err(failed(format!(
+            "{at}: the program has {own}, the page {other}"
+        )))
+    };
+    match (own, other) {
+        (Value::Number(a), Value::Number(b)) => {
+            let (a, b) = (
+                a.as_f64().unwrap_or(f64::NAN),
+                b.as_f64().unwrap_or(f64::NAN),
+            );
+            let share = (a - b).abs() / a.abs().max(b.abs()).max(1e-9);
+            *worst = f64::max(*worst, share);
+            if share <= SAME {
+                Ok(())
+            } else {
+                differ()
+            }
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => a
+            .iter()
+            .zip(b)
+            .enumerate()
+            .try_for_each(|(k, (a, b))| same(a, b, &format!("{at}/{k}"), worst)),
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => a
+            .iter()
+            .filter(|(name, _)| *name != "cost")
+            .try_for_each(|(name, a)| same(a, &b[name], &format!("{at}/{name}"), worst)),
+        _ if own == other => Ok(()),
+        _ => differ(),
+    }
+}
+
+/// A second record on the model of the first.
+fn validates(page: &mut Browser, native: &Native) -> Done {
+    let command = "bowden generate --mode torque --effect viscous --seed 8";
+    let second = native.text(command)?;
+    let path = native.write("second.csv", second.as_bytes())?;
+    page.choose("#second", &[path])?;
+    page.until("document.querySelector('#validated .headline') !== null")?;
+    let said = page.value("document.querySelector('#validated .headline').innerText")?;
+    if !said.as_str().unwrap_or_default().contains("HOLDS") {
+        return Err(failed(format!(
+            "the model does not hold on a record of the same rig: {said}"
+        )));
+    }
+    println!("validate: {said}");
+    Ok(())
+}
+
+/// Without a part the error rises; with it again the error is what it was.
+fn takes_apart(page: &mut Browser) -> Done {
+    let error = "Number(/held-out ([0-9.]+)/.exec(document.querySelector('.error').innerText)[1])";
+    let click = "document.querySelectorAll('.explore input[type=checkbox]')";
+    let before = page.value(error)?;
+    page.value(&format!(
+        "(() => {{ const all = {click}; all[all.length - 1].click(); }})()"
+    ))?;
+    let without = page.value(error)?;
+    page.value(&format!(
+        "(() => {{ const all = {click}; all[all.length - 1].click(); }})()"
+    ))?;
+    let after = page.value(error)?;
+    if before != after || without.as_f64() <= before.as_f64() {
+        return Err(failed(format!(
+            "errors with, without and with a part: {before}, {without}, {after}"
+        )));
+    }
+    println!("without the last part the held-out error is {without} % instead of {before} %");
+    Ok(())
+}
+
+/// No width needs scrolling to the side.
+fn fits_each_width(page: &mut Browser) -> Done {
+    for width in WIDTHS {
+        page.resize(width, 900)?;
+        let wide = page.value("document.documentElement.scrollWidth")?;
+        let inner = page.value("document.querySelector('iframe.report').contentDocument.documentElement.scrollWidth <= document.querySelector('iframe.report').clientWidth")?;
+        if wide.as_u64() > Some(u64::from(width)) || inner != json!(true) {
+            return Err(failed(format!(
+                "{width} pixels: the page has {wide}; report fits: {inner}"
+            )));
+        }
+    }
+    page.resize(1280, 900)
+}
+
+/// What names do not tell, the page asks.
+fn asks_for_columns(page: &mut Browser) -> Done {
+    let note = page.value("document.getElementById('columns-note').innerText")?;
+    if note != json!("Choose the column of the input and of the output.") {
+        return Err(failed(format!("rig.csv: the page says {note}")));
+    }
+    Ok(())
+}
+
+/// A refusal is the program's line, with the cell in its table.
+fn marks_the_place(page: &mut Browser, native: &Native) -> Done {
+    let text = std::fs::read_to_string(native.folder().join("straight.csv"))?;
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    lines[99] = lines[99].replacen(',', ",oops", 1);
+    let path = native.write("broken.csv", lines.join("\n").as_bytes())?;
+    pages::choose(page, &[path])?;
+    let line = page.value("document.querySelector('.refusal').innerText")?;
+    let cell = page.value("document.querySelector('td.marked').innerText")?;
+    let own = native.refusal("bowden identify broken.csv")?;
+    let is_marked = cell.as_str().is_some_and(|cell| cell.starts_with("oops"));
+    if line.as_str() != Some(own.as_str()) || !is_marked {
+        return Err(failed(format!(
+            "the page says {line} and marks {cell}; the program says {own}"
+        )));
+    }
+    println!("refusal: {own}");
+    page.value("bowden.state.files.splice(0)")?;
+    Ok(())
+}
+
+/// After a search that was cancelled, the page answers as before.
+fn cancels(page: &mut Browser, native: &Native) -> Done {
+    pages::choose(page, &[native.folder().join("straight.csv")])?;
+    page.until("!document.getElementById('identify').disabled")?;
+    page.value("document.getElementById('identify').click()")?;
+    page.until("document.getElementById('bar').value > 0")?;
+    page.value("document.getElementById('cancel').click()")?;
+    page.until("document.getElementById('refusal').innerText.startsWith('Cancelled')")?;
+    identified(
+        page,
+        native,
+        "straight.csv after a search that was cancelled",
+    )
+}
+
+/// Requests to the page's own server alone, and no error on the console.
+fn stays_alone(page: &mut Browser, address: &str) -> Result<(), Ended> {
+    page.value("1")?;
+    let is_own = |url: &String| {
+        ["blob:", "data:", "about:", address]
+            .iter()
+            .any(|own| url.starts_with(own))
+    };
+    if let Some(other) = page.requests.iter().find(|url| !is_own(url)) {
+        return Err(failed(format!("the page requested {other}")));
+    }
+    if let Some(error) = page.errors.first() {
+        return Err(failed(format!("the console shows {error}")));
+    }
+    println!(
+        "{} requests, all to {address} or within the page; no error on the console",
+        page.requests.len()
+    );
+    page.requests.clear();
+    Ok(())
+}
