@@ -1,0 +1,102 @@
+// The engine as the page sees it: a worker that answers requests, keeps files, and can be ended.
+
+export class Engine {
+  #program = null;
+  #worker = null;
+  #held = new Map();
+  #waiting = new Map();
+  #next = 1;
+  #fault = "";
+  #told = () => {};
+
+  // The program, from the page itself if the page is a single file.
+  async #load() {
+    const own = document.getElementById("program");
+    if (!own) {
+      const answer = await fetch("bowden.wasm");
+      if (!answer.ok) throw new Error(`bowden.wasm: ${answer.status}`);
+      return WebAssembly.compile(await answer.arrayBuffer());
+    }
+    const packed = Uint8Array.from(atob(own.textContent.trim()), (c) => c.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  }
+
+  // Begins to load; the first request waits for it.
+  prepare() {
+    this.#program ??= this.#load();
+    return this.#program;
+  }
+
+  async #start() {
+    const program = await this.prepare();
+    if (this.#worker) return;
+    const own = document.getElementById("worker");
+    const url = own
+      ? URL.createObjectURL(new Blob([own.textContent], { type: "text/javascript" }))
+      : "worker.js";
+    this.#worker = new Worker(url);
+    this.#worker.onmessage = ({ data }) => this.#heard(data);
+    this.#worker.onerror = (event) => this.#stopped(event.message || "the worker has stopped");
+    this.#worker.postMessage({ program });
+  }
+
+  #heard(data) {
+    if (data.what !== undefined) return this.#told(data.what, data.share);
+    if (data.fault !== undefined) {
+      this.#fault = data.fault;
+      return;
+    }
+    if (data.stopped !== undefined) return this.#stopped(data.stopped);
+    const waiting = this.#waiting.get(data.id);
+    this.#waiting.delete(data.id);
+    if (!waiting) return;
+    if (data.answer.refused !== undefined) waiting.reject(new Refusal(data.answer.refused));
+    else waiting.resolve(data.answer);
+  }
+
+  #stopped(why) {
+    const message = `bowden has stopped because of an error of its own: ${this.#fault || why}`;
+    this.#end(new Refusal(message));
+  }
+
+  #end(error) {
+    this.#worker?.terminate();
+    this.#worker = null;
+    this.#held.clear();
+    this.#fault = "";
+    const waiting = [...this.#waiting.values()];
+    this.#waiting.clear();
+    for (const { reject } of waiting) reject(error);
+  }
+
+  // Ends what runs; the next request starts a new worker.
+  cancel() {
+    this.#end(new Cancelled());
+  }
+
+  // Asks about files, which the worker receives if it does not have them yet.
+  async ask(request, { files = [], bytes, told } = {}) {
+    await this.#start();
+    for (const file of files) {
+      if (this.#held.get(file.name) === file) continue;
+      this.#held.set(file.name, file);
+      const add = file.isExample ? { ask: "example" } : { ask: "add", name: file.name };
+      await this.#post(add, file.bytes);
+    }
+    this.#told = told ?? (() => {});
+    return this.#post(request, bytes);
+  }
+
+  #post(request, bytes) {
+    const id = this.#next++;
+    return new Promise((resolve, reject) => {
+      this.#waiting.set(id, { resolve, reject });
+      this.#worker.postMessage({ id, request, bytes });
+    });
+  }
+}
+
+// What the program refuses, in its one line.
+export class Refusal extends Error {}
+export class Cancelled extends Error {}

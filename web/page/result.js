@@ -1,0 +1,63 @@
+// An answer: its headline, its numbers, its files, and the report page itself.
+
+import { element } from "./dom.js";
+
+const TYPES = { html: "text/html", csv: "text/csv", json: "application/json", toml: "application/toml" };
+const LABELS = {
+  "report.html": "report page",
+  "model.toml": "model.toml",
+  "model.rs": "model.rs (Rust)",
+  "model.h": "model.h (C)",
+  "model.vector.csv": "test vector",
+  "trace.csv": "trace (CSV)",
+  "result.json": "result (JSON)",
+  "result.txt": "result (text)",
+};
+
+export function answer(found, kind) {
+  const [first, ...more] = found.headline ?? [];
+  const files = Object.keys(LABELS).filter((name) => found.files[name]);
+  return [
+    element("p", { class: "headline" }, first ?? ""),
+    element("p", {}, more.join(" ")),
+    found.no_model ? element("p", { class: "note" }, `No model file: ${found.no_model}`) : null,
+    element("h3", {}, "Download"),
+    element("p", { class: "downloads" }, ...files.map((name) => download(name, found.files[name], kind))),
+    element("h3", {}, "The same on a command line"),
+    command(found.command),
+    element("h3", {}, "Report"),
+    report(found, kind),
+  ].filter(Boolean);
+}
+
+function download(name, bytes, kind) {
+  const type = TYPES[name.split(".").pop()] ?? "text/plain";
+  const link = element("a", { class: "button", download: kind === "validate" ? `validate-${name}` : name }, LABELS[name]);
+  // In the tab alone: nothing is fetched.
+  link.href = URL.createObjectURL(new Blob([bytes], { type }));
+  return link;
+}
+
+function command(line) {
+  const copy = element("button", { type: "button" }, "Copy");
+  copy.addEventListener("click", async () => {
+    await navigator.clipboard?.writeText(line);
+    copy.textContent = "Copied";
+  });
+  return element("div", { class: "command" }, element("pre", { tabindex: "0" }, element("code", {}, line)), copy);
+}
+
+// Without scripts and as tall as its text, so that the page scrolls as one.
+function report(found, kind) {
+  const frame = element("iframe", { class: "report", title: `Report of bowden ${kind}`, sandbox: "allow-same-origin" });
+  const fit = () => {
+    const root = frame.contentDocument?.documentElement;
+    if (root) frame.style.height = `${root.getBoundingClientRect().height + 24}px`;
+  };
+  frame.addEventListener("load", () => {
+    fit();
+    new ResizeObserver(fit).observe(frame);
+  });
+  frame.srcdoc = new TextDecoder().decode(found.files["report.html"]);
+  return frame;
+}
