@@ -14,6 +14,7 @@ mod command;
 mod identify;
 mod look;
 mod options;
+mod shape;
 mod validate;
 
 pub use answer::Answer;
@@ -45,8 +46,6 @@ enum Request {
     Add { name: String },
     /// Keeps the built-in record.
     Example,
-    /// Forgets all files.
-    Clear,
     /// The columns of a file, and what the reader says of it.
     Look {
         file: String,
@@ -58,6 +57,11 @@ enum Request {
         files: Vec<String>,
         #[serde(default)]
         choices: Choices,
+    },
+    /// The hysteresis state over an input, the bytes that follow.
+    Shape {
+        /// rho, sigma, n and the first state.
+        parameters: [f64; 4],
     },
     /// Whether a model, the bytes that follow, holds on a file.
     Validate {
@@ -94,11 +98,10 @@ impl Engine {
                 self.keep(EXAMPLE.to_owned(), stored.into_bytes());
                 Ok(Answer::default())
             }
-            Request::Clear => {
-                self.files.clear();
-                Ok(Answer::default())
-            }
             Request::Look { file, choices } => look::look(self.file(&file)?, &choices),
+            Request::Identify { files, .. } if files.is_empty() => {
+                Err("no file is chosen".to_owned())
+            }
             Request::Identify { files, choices } => {
                 let files: Vec<&File> = files
                     .iter()
@@ -106,6 +109,7 @@ impl Engine {
                     .collect::<Result<_, _>>()?;
                 identify::identify(&files, &choices, tell)
             }
+            Request::Shape { parameters } => shape::shape(parameters, bytes),
             Request::Validate {
                 model,
                 file,

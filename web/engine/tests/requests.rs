@@ -1,0 +1,125 @@
+//! Requests as the page makes them.
+#![allow(clippy::unwrap_used)]
+
+use bowden_web::{Answer, Engine, EXAMPLE};
+use serde_json::{json, Value};
+
+fn ask(engine: &mut Engine, request: &Value, bytes: &[u8]) -> Answer {
+    let mut line = serde_json::to_vec(request).unwrap();
+    line.push(b'\n');
+    line.extend(bytes);
+    engine.answer(&line, &|_| {})
+}
+
+fn record(head: &str, bad: Option<usize>) -> Vec<u8> {
+    let mut text = format!("{head}\n");
+    for i in 0..400 {
+        let t = 0.01 * f64::from(i);
+        let torque = match bad == Some(text.lines().count()) {
+            true => "oops".to_owned(),
+            false => format!("{:.4}", 16.0 * (2.0 * t).sin()),
+        };
+        text += &format!("{t:.2},{torque},{:.4}\n", 15.0 * (2.0 * t - 0.1).sin());
+    }
+    text.into_bytes()
+}
+
+#[test]
+fn the_example_has_columns_with_units_and_parts() {
+    let mut engine = Engine::default();
+    let _ = ask(&mut engine, &json!({"ask": "example"}), &[]);
+    let look = json!({"ask": "look", "file": EXAMPLE});
+    let answer = ask(&mut engine, &look, &[]);
+    let columns = answer.get("columns").unwrap();
+    let parts: Vec<&Value> = columns
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| &c["part"])
+        .collect();
+    assert_eq!(parts, ["time", "input", "output", "channel", "channel"]);
+    assert_eq!(columns[1]["unit"], "N·m");
+    assert_eq!(answer.get("samples").unwrap(), 20_000);
+    assert!(answer.get("refusal").is_none());
+}
+
+#[test]
+fn a_refusal_has_its_line_and_its_cell() {
+    let mut engine = Engine::default();
+    let add = json!({"ask": "add", "name": "bench.csv"});
+    let _ = ask(&mut engine, &add, &record("t,tau_i,tau_o", Some(50)));
+    let look = json!({"ask": "look", "file": "bench.csv"});
+    let answer = ask(&mut engine, &look, &[]);
+    let refusal = answer.get("refusal").unwrap();
+    assert_eq!(
+        (&refusal["line"], &refusal["column"]),
+        (&json!(51), &json!("tau_i"))
+    );
+    assert!(refusal["text"]
+        .as_str()
+        .unwrap()
+        .starts_with("bench.csv:51: column `tau_i`: "));
+    let marked = refusal["lines"].as_array().unwrap();
+    let marked = marked.iter().find(|line| line["number"] == 51).unwrap();
+    assert_eq!(marked["cells"][1], "oops");
+    let identify = json!({"ask": "identify", "files": ["bench.csv"]});
+    let answer = ask(&mut engine, &identify, &[]);
+    assert_eq!(answer.get("refused"), Some(&refusal["text"]));
+}
+
+#[test]
+fn the_command_line_has_what_was_chosen() {
+    let mut engine = Engine::default();
+    let add = json!({"ask": "add", "name": "my bench.csv"});
+    let _ = ask(&mut engine, &add, &record("time,motor,joint", None));
+    let choices = json!({
+        "mode": "torque", "input": "motor", "output": "joint", "cutoff": 5.0, "max_terms": 0
+    });
+    let identify = json!({"ask": "identify", "files": ["my bench.csv"], "choices": choices});
+    let answer = ask(&mut engine, &identify, &[]);
+    let expected = "bowden identify 'my bench.csv' --mode torque --input motor --output joint --cutoff 5 --max-terms 0 --report report.html";
+    assert_eq!(
+        answer.get("command").unwrap(),
+        expected,
+        "{:?}",
+        answer.get("refused")
+    );
+    for name in ["report.html", "result.json", "result.txt", "trace.csv"] {
+        assert!(
+            answer.file(name).is_some_and(|bytes| !bytes.is_empty()),
+            "{name}"
+        );
+    }
+    let shown = std::str::from_utf8(answer.file("result.txt").unwrap()).unwrap();
+    assert!(!shown.contains('\u{1b}'));
+}
+
+#[test]
+fn what_is_no_request_gets_one_line() {
+    let mut engine = Engine::default();
+    for request in [
+        "",
+        "{}",
+        "\n",
+        "{\"ask\":\"look\",\"file\":\"none\"}",
+        "\u{0}",
+        "{\"ask\":\"identify\",\"files\":[]}",
+    ] {
+        let answer = engine.answer(request.as_bytes(), &|_| {});
+        let line = answer.get("refused").and_then(Value::as_str).unwrap();
+        assert!(
+            !line.is_empty() && !line.contains('\n'),
+            "{request:?}: {line:?}"
+        );
+    }
+    let unknown = json!({"ask": "look", "file": "none", "choices": {"colour": "red"}});
+    let answer = ask(&mut engine, &unknown, &[]);
+    assert!(answer
+        .get("refused")
+        .unwrap()
+        .as_str()
+        .unwrap()
+        .contains("colour"));
+    let bytes = answer.bytes();
+    assert!(bytes.ends_with(b"\n") && bytes.iter().filter(|b| **b == b'\n').count() == 1);
+}
