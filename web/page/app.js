@@ -4,7 +4,7 @@ import { element } from "./dom.js";
 import { Cancelled, Engine } from "./engine.js";
 import { digits, preview } from "./plot.js";
 import { explore } from "./explore.js";
-import { answer } from "./result.js";
+import { answer, report } from "./result.js";
 
 const at = (id) => document.getElementById(id);
 const engine = new Engine();
@@ -12,7 +12,7 @@ const EXAMPLE = "built-in synthetic record (bowden generate --mode torque --effe
 const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "invertible"];
 
 // The files, the parts of the columns that the user has chosen, and the last result.
-const state = { files: [], looks: new Map(), parts: null, result: null, turn: 0 };
+const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, turn: 0 };
 
 // ---- what the user chose ------------------------------------------------------------------------
 
@@ -207,8 +207,9 @@ async function identify() {
     state.result = { found, choices: chosen };
     at("progress-part").hidden = true;
     at("result").replaceChildren(...answer(found, "identify"));
-    at("explore").replaceChildren(explore(new TextDecoder().decode(found.files["trace.csv"])));
+    at("explore").replaceChildren(explore(found, shape));
     at("validated").replaceChildren();
+    at("report").replaceChildren(report(found, "identify"));
     at("result-part").hidden = false;
     at("result-head").focus();
     document.dispatchEvent(new CustomEvent("answered"));
@@ -230,6 +231,12 @@ function told(what, share) {
   if (share !== null) at("bar").value = Math.max(share, at("bar").value);
 }
 
+// The hysteresis state over an input with other parameters.
+async function shape(parameters, input) {
+  const answered = await engine.ask({ ask: "shape", parameters }, { bytes: input.slice().buffer });
+  return new Float64Array(answered.files.eta.slice().buffer);
+}
+
 async function validate(file) {
   const { found, choices: chosen } = state.result ?? {};
   const model = found?.files["model.toml"];
@@ -241,7 +248,8 @@ async function validate(file) {
   const { start, end, header_line, segment, names, baseline, max_terms, invertible, ...rest } = chosen;
   try {
     const held = await engine.ask({ ask: "validate", model: "model.toml", file: file.name, choices: rest }, { files: [file], bytes: model.slice().buffer });
-    at("validated").replaceChildren(...answer(held, "validate"));
+    state.validated = held;
+    at("validated").replaceChildren(...answer(held, "validate"), element("details", {}, element("summary", {}, "Report of the validation"), report(held, "validate")));
   } catch (error) {
     at("validated").replaceChildren(element("p", { class: "refusal" }, error.message));
   }
@@ -279,7 +287,7 @@ at("example").addEventListener("click", () => {
 });
 at("identify").addEventListener("click", identify);
 at("cancel").addEventListener("click", () => engine.cancel());
-at("options").addEventListener("change", () => state.files.length && look());
+for (const id of ["options", "mode"]) at(id).addEventListener("change", () => state.files.length && look());
 document.body.append(element("datalist", { id: "channel-names" }, ...["phi_p", "phi_d", "temperature", "load"].map((value) => element("option", { value }))));
 engine.prepare().catch((error) => refuse(`The program could not be loaded: ${error.message}`));
 

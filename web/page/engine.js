@@ -9,33 +9,31 @@ export class Engine {
   #fault = "";
   #told = () => {};
 
-  // The program, from the page itself if the page is a single file.
+  // The program and the script of the worker, from the page itself if the page is a single file.
   async #load() {
     const own = document.getElementById("program");
     if (!own) {
-      const answer = await fetch("bowden.wasm");
-      if (!answer.ok) throw new Error(`bowden.wasm: ${answer.status}`);
-      return WebAssembly.compile(await answer.arrayBuffer());
+      const [program, worker] = await Promise.all(["bowden.wasm", "worker.js"].map(part));
+      return { program: await WebAssembly.compile(await program.arrayBuffer()), worker: await worker.text() };
     }
     const packed = Uint8Array.from(atob(own.textContent.trim()), (c) => c.charCodeAt(0));
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+    const program = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+    return { program, worker: document.getElementById("worker").textContent };
   }
 
-  // Begins to load; the first request waits for it.
+  // Begins to load; the first request waits for it. From then on nothing more is loaded.
   prepare() {
     this.#program ??= this.#load();
     return this.#program;
   }
 
   async #start() {
-    const program = await this.prepare();
+    const { program, worker } = await this.prepare();
     if (this.#worker) return;
-    const own = document.getElementById("worker");
-    const url = own
-      ? URL.createObjectURL(new Blob([own.textContent], { type: "text/javascript" }))
-      : "worker.js";
+    const url = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
     this.#worker = new Worker(url);
+    URL.revokeObjectURL(url);
     this.#worker.onmessage = ({ data }) => this.#heard(data);
     this.#worker.onerror = (event) => this.#stopped(event.message || "the worker has stopped");
     this.#worker.postMessage({ program });
@@ -84,7 +82,7 @@ export class Engine {
       const add = file.isExample ? { ask: "example" } : { ask: "add", name: file.name };
       await this.#post(add, file.bytes);
     }
-    this.#told = told ?? (() => {});
+    if (told) this.#told = told;
     return this.#post(request, bytes);
   }
 
@@ -95,6 +93,12 @@ export class Engine {
       this.#worker.postMessage({ id, request, bytes });
     });
   }
+}
+
+async function part(name) {
+  const answer = await fetch(name);
+  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
+  return answer;
 }
 
 // What the program refuses, in its one line.

@@ -47,8 +47,10 @@ export function solve(columns, target, rows) {
 
 const FIXED = ["record", "t", "segment", "input", "measured", "baseline", "final", "residual"];
 
-export function explore(trace) {
-  const { names, units, rows } = table(trace);
+// `shape` gives the hysteresis state over an input, for the parameters that the user drags.
+export function explore(found, shape) {
+  const text = (name) => new TextDecoder().decode(found.files[name]);
+  const { names, units, rows } = table(text("trace.csv"));
   const numbers = (name) => {
     const index = names.indexOf(name);
     return Float64Array.from(rows, (row) => Number(row[index]));
@@ -65,6 +67,11 @@ export function explore(trace) {
     output: label("output", units[names.indexOf("measured")]),
   };
   const parts = names.filter((name) => !FIXED.includes(name)).map((name) => ({ name, values: numbers(name), on: true }));
+  const known = JSON.parse(text("result.json")).final.parameters;
+  const value = (name) => known.find((own) => own.name === name)?.value;
+  const identified = ["rho", "sigma", "n", "eta0"].map(value);
+  // Several records begin with states of their own.
+  if (!several && identified.slice(0, 3).every(Number.isFinite)) data.shape = { identified, unit: known.find((own) => own.name === "rho").unit, of: shape };
   return view(data, parts.filter((own) => own.values.some((value) => value !== 0)));
 }
 
@@ -72,13 +79,18 @@ function label(name, unit) {
   return unit ? `${name} [${unit}]` : name;
 }
 
+const NO_POINT = "Move the pointer over a figure, or the arrow keys in the residual, to read the values.";
+
 function view(data, parts) {
   const span = { from: 0, to: data.time.length - 1 };
   const state = { parts, span, model: null, at: null };
   const errors = element("p", { class: "error", "aria-live": "polite" });
-  const hover = element("output", { class: "note" }, "Move the pointer over a figure to read its values.");
+  const hover = element("output", { class: "note" }, NO_POINT);
   const list = element("div");
-  const figures = { loop: element("div"), rest: element("div") };
+  const figures = {
+    loop: element("div"),
+    rest: element("div", { tabindex: "0", role: "group", "aria-label": "Residual over time. The left and right arrow keys move the cursor." }),
+  };
   const slide = (end, text) => {
     const field = element("input", { type: "range", min: 0, max: data.time.length - 1, value: span[end], "aria-label": text });
     field.addEventListener("input", () => {
@@ -97,10 +109,17 @@ function view(data, parts) {
   };
   const point = (index) => {
     state.at = index;
-    hover.textContent = index === null ? "Move the pointer over a figure to read its values."
+    hover.textContent = index === null ? NO_POINT
       : `${data.labels.time} ${digits(data.time[index])} · ${data.labels.input} ${digits(data.input[index])} · measured ${digits(data.measured[index])} · model ${digits(state.model[index])} · residual ${digits(data.measured[index] - state.model[index])}`;
     draw();
   };
+  figures.rest.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const next = (state.at ?? (step > 0 ? span.from - 1 : span.to + 1)) + step * (event.shiftKey ? 10 : 1);
+    point(Math.min(span.to, Math.max(span.from, next)));
+  });
   const draw = () => {
     figures.loop.replaceChildren(loop(data, state, point));
     figures.rest.replaceChildren(residual(data, state, point, zoom));
@@ -129,18 +148,67 @@ function view(data, parts) {
     });
     list.append(element("label", {}, box, own.name, own.factor));
   }
+  const shapes = sliders(data, parts.find((own) => own.name === "transmission.hysteresis"), fit);
   const root = element("section", { "aria-labelledby": "explore-head" },
     element("h3", { id: "explore-head" }, "Take the model apart"),
-    element("p", { class: "note" }, "Switch a part off: the gains of the other parts are fitted again to the fit segment, with the shapes as identified. Drag over the residual to zoom; the loop shows the same time."),
+    element("p", { class: "note" }, "Switch a part off: the gains of the other parts are fitted again to the fit segment. Drag over the residual to zoom; the loop shows the same time."),
     errors,
     element("div", { class: "explore" },
       element("fieldset", {}, element("legend", {}, "Parts of the model"), list),
+      shapes,
       element("fieldset", {}, element("legend", {}, "Shown time"),
         element("label", { class: "slide" }, "from", from), element("label", { class: "slide" }, "to", to),
         element("p", {}, element("button", { type: "button", onclick: () => zoom(null) }, "Show all")), hover)),
+    element("p", { class: "note keys" }, element("span", { class: "measured" }, "measured"), element("span", { class: "model" }, "model"), element("span", { class: "rest" }, "residual")),
     element("div", { class: "explore" }, figures.loop, figures.rest));
   fit();
   return root;
+}
+
+// The parameters of the hysteresis, to be dragged: the loop follows.
+function sliders(data, part, fit) {
+  if (!data.shape || !part) return null;
+  const { identified, unit, of } = data.shape;
+  const identifiedValues = part.values;
+  const now = identified.slice();
+  const ranges = [
+    { name: "rho", unit, low: identified[0] / 5, high: identified[0] * 5 },
+    { name: "sigma", unit: "", low: 0.5, high: Math.max(5, 2 * identified[1]) },
+    { name: "n", unit: "", low: 1, high: Math.max(5, 2 * identified[2]) },
+  ];
+  let turn = 0;
+  const said = element("p", { class: "note" }, "as identified");
+  const change = async () => {
+    const own = ++turn;
+    const eta = await of([...now.slice(0, 3), now[3] ?? 0], data.input);
+    if (own !== turn) return;
+    part.values = eta;
+    said.textContent = "Recomputed from the samples of the trace: at the identified values the error is close to that of the report, not equal.";
+    fit();
+  };
+  const fields = ranges.map(({ name, unit, low, high }, k) => {
+    const shown = element("output", {}, digits(now[k]));
+    const scale = Math.log(high / low) / 1000;
+    const at = (value) => Math.round(Math.log(value / low) / scale);
+    const field = element("input", { type: "range", min: 0, max: 1000, value: at(now[k]), "aria-label": `${name}${unit ? `, in ${unit}` : ""}` });
+    field.addEventListener("input", () => {
+      now[k] = Math.min(high, Math.max(low, low * Math.exp(scale * Number(field.value))));
+      shown.textContent = digits(now[k]);
+      change();
+    });
+    return { row: element("label", { class: "slide" }, `${name}${unit ? ` [${unit}]` : ""}`, field, shown), reset: () => ((field.value = at(identified[k])), (shown.textContent = digits(identified[k]))) };
+  });
+  const back = element("button", { type: "button" }, "As identified");
+  back.addEventListener("click", () => {
+    turn++;
+    identified.forEach((value, k) => (now[k] = value));
+    part.values = identifiedValues;
+    fields.forEach((own) => own.reset());
+    said.textContent = "as identified";
+    fit();
+  });
+  return element("fieldset", {}, element("legend", {}, "Shape of the hysteresis"), ...fields.map((own) => own.row), element("p", {}, back), said,
+    element("p", { class: "note" }, "rho: initial slope of eta. 2·sigma·rho: the slope after a reversal. n: sharpness of the knee."));
 }
 
 const [WIDTH, HEIGHT, LEFT, BOTTOM] = [560, 340, 58, 40];

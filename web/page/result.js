@@ -19,14 +19,14 @@ export function answer(found, kind) {
   const files = Object.keys(LABELS).filter((name) => found.files[name]);
   return [
     element("p", { class: "headline" }, first ?? ""),
-    element("p", {}, more.join(" ")),
+    // The best term; the summary says the rest in sentences.
+    ...more.filter((own) => own.includes(" · ")).map((own) => element("p", { class: "term" }, own)),
+    element("p", {}, found.summary),
     found.no_model ? element("p", { class: "note" }, `No model file: ${found.no_model}`) : null,
     element("h3", {}, "Download"),
     element("p", { class: "downloads" }, ...files.map((name) => download(name, found.files[name], kind))),
     element("h3", {}, "The same on a command line"),
     command(found.command),
-    element("h3", {}, "Report"),
-    report(found, kind),
   ].filter(Boolean);
 }
 
@@ -47,8 +47,10 @@ function command(line) {
   return element("div", { class: "command" }, element("pre", { tabindex: "0" }, element("code", {}, line)), copy);
 }
 
+// The report page: the program's own, in a frame.
+//
 // Without scripts and as tall as its text, so that the page scrolls as one.
-function report(found, kind) {
+export function report(found, kind) {
   const frame = element("iframe", { class: "report", title: `Report of bowden ${kind}`, sandbox: "allow-same-origin" });
   const fit = () => {
     const root = frame.contentDocument?.documentElement;
@@ -58,6 +60,8 @@ function report(found, kind) {
     fit();
     new ResizeObserver(fit).observe(frame);
   });
-  frame.srcdoc = new TextDecoder().decode(found.files["report.html"]);
+  // Links within the report would lead to this page, whose address the frame has as its base.
+  const html = new TextDecoder().decode(found.files["report.html"]);
+  frame.srcdoc = html.replaceAll('href="#', 'href="about:srcdoc#');
   return frame;
 }
