@@ -38,7 +38,7 @@ impl Browser {
             let version = Command::new(name).arg("--version").output();
             version.is_ok_and(|output| output.status.success())
         };
-        let Some(name) = NAMES.iter().find(has) else {
+        let Some(name) = NAMES.into_iter().find(has) else {
             let why = "Chromium is not installed (Debian: chromium)";
             return Err(Ended::Skipped(why.to_owned()));
         };

@@ -136,7 +136,6 @@ fn single(page: &Path, program: &[u8]) -> Result<String, Ended> {
     // What is within the page needs no connection at all.
     let stricter = policy
         .replace("script-src 'self'", "script-src 'unsafe-inline'")
-        .replace("worker-src 'self' blob:", "worker-src blob:")
         .replace("connect-src 'self'; ", "");
     let program = format!(
         "<script type=\"text/plain\" id=\"program\">{}</script>\n<script type=\"text/plain\" id=\"worker\">{}</script>\n",
