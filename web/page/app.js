@@ -12,7 +12,7 @@ const EXAMPLE = "built-in synthetic record (bowden generate --mode torque --effe
 const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "invertible"];
 
 // The files, the parts of the columns that the user has chosen, and the last result.
-const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, turn: 0 };
+const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, turn: 0, answered: 0 };
 
 // ---- what the user chose ------------------------------------------------------------------------
 
@@ -83,6 +83,7 @@ async function look() {
     }
     at("refusal").replaceChildren();
     show();
+    state.answered = turn;
   } catch (error) {
     if (turn === state.turn && !(error instanceof Cancelled)) refuse(error.message);
   }
@@ -112,6 +113,7 @@ function refuse(line) {
 
 // ---- columns ------------------------------------------------------------------------------------
 
+// What the reader has answered, with the present parts.
 function show() {
   listFiles();
   const looks = state.files.map((file) => state.looks.get(file)).filter(Boolean);
@@ -171,8 +173,8 @@ function change(index, part) {
   own.part = part || null;
   if (part === "channel" && !own.channel) own.channel = own.name.replace(/\s+/g, "_");
   const both = ["input", "output"].every((one) => state.parts.some((column) => column.part === one));
+  show();
   if (both || part === "channel" || !part) look();
-  else show();
 }
 
 // The line of the program, and the place in the table.

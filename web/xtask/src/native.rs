@@ -96,9 +96,10 @@ impl Native {
             .output()?)
     }
 
-    /// The report page that the last run wrote.
+    /// The report page that the last run wrote, with the command line of the page.
     pub fn report(&self) -> Result<String, Ended> {
-        Ok(std::fs::read_to_string(self.folder.join("report.html"))?)
+        let html = std::fs::read_to_string(self.folder.join("report.html"))?;
+        Ok(html.replace(" --json</code>", "</code>"))
     }
 }
 

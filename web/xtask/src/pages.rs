@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 /// Whether the reader has answered about all files.
 const IS_READ: &str =
-    "bowden.state.files.length > 0 && bowden.state.files.every((f) => bowden.state.looks.has(f))";
+    "bowden.state.files.length > 0 && bowden.state.answered === bowden.state.turn";
 
 /// Starts the built-in example.
 pub fn example(page: &mut Browser) -> Result<(), Ended> {
