@@ -77,14 +77,16 @@ fn program() -> Result<PathBuf, Ended> {
         return Err(failed("the program does not compile"));
     }
     let text = String::from_utf8_lossy(&output.stdout);
-    let names = text.lines().filter_map(|line| {
+    let mut names = text.lines().filter_map(|line| {
         let message: serde_json::Value = serde_json::from_str(line).ok()?;
         let names = message["filenames"].as_array()?;
         let wasm = names.iter().filter_map(|name| name.as_str());
         wasm.map(PathBuf::from)
             .find(|name| name.ends_with("bowden_web.wasm"))
     });
-    names.last().ok_or_else(|| failed("no program was built"))
+    names
+        .next_back()
+        .ok_or_else(|| failed("no program was built"))
 }
 
 /// The compiler's libraries for the target; rustup adds them where it can.

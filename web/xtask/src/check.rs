@@ -14,8 +14,8 @@ const WIDTHS: [u32; 2] = [390, 1280];
 /// Runs every check.
 pub fn check() -> Done {
     let dist = root().join("dist");
-    build::build(&dist)?;
     let mut page = Browser::start()?;
+    build::build(&dist)?;
     let native = Native::build()?;
     let address = serve::in_background(dist.clone())?;
     page.open(&format!("{address}/"))?;

@@ -22,12 +22,12 @@ impl Native {
             .stderr(std::process::Stdio::inherit())
             .output()?;
         let text = String::from_utf8_lossy(&output.stdout);
-        let executable = text.lines().filter_map(|line| {
+        let mut executable = text.lines().filter_map(|line| {
             let message: Value = serde_json::from_str(line).ok()?;
             message["executable"].as_str().map(PathBuf::from)
         });
         let program = executable
-            .last()
+            .next_back()
             .ok_or_else(|| failed("the program bowden does not compile"))?;
         let folder = std::env::temp_dir().join(format!("bowden-native-{}", std::process::id()));
         std::fs::create_dir_all(&folder)?;

@@ -6,7 +6,7 @@ use crate::{build, pages, root, serve, Done};
 use std::time::Instant;
 
 /// Repetitions, of which the fastest counts.
-const TIMES: usize = 3;
+const TIMES: usize = 5;
 
 /// Prints sizes and times.
 pub fn time() -> Done {
