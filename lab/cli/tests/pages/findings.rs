@@ -123,7 +123,7 @@ fn of_record() -> Vec<Finding> {
         message: String::new(),
         grave: true,
         left_out: true,
-        samples: vec![600..2000],
+        samples: Vec::new(),
     };
     vec![
         Finding::DefectiveMeasurement {
