@@ -113,7 +113,7 @@ impl<T: Real> BoucWen<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name. `sigma` and `n`
-    /// above 1e9 are out of range, because no loop can show such values.
+    /// above 1e9 are out of range, because no loop can reveal such values.
     pub fn try_new(rho: T, sigma: T, n: T) -> Result<Self, Error> {
         shape!(
             rho,
