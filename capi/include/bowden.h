@@ -1062,9 +1062,9 @@ typedef struct bowden_edge_velocity_settings_f32 {
     // Size of one count, above zero [channel unit]: positions change by multiples of
     // it.
     float count;
-    // Counts that come faster than this time are averaged, above zero [s].
+    // Time over which counts that come faster are averaged; above zero [s].
     float time_constant;
-    // After this time without a count the velocity is zero, above zero [s]. A speed
+    // Time without a count after which the velocity is zero; above zero [s]. A speed
     // below count/longest_gap reads as zero.
     float longest_gap;
     // Period of a position that wraps, such as a counter's, above zero [channel unit];
@@ -1109,9 +1109,9 @@ typedef struct bowden_edge_velocity_settings_f64 {
     // Size of one count, above zero [channel unit]: positions change by multiples of
     // it.
     double count;
-    // Counts that come faster than this time are averaged, above zero [s].
+    // Time over which counts that come faster are averaged; above zero [s].
     double time_constant;
-    // After this time without a count the velocity is zero, above zero [s]. A speed
+    // Time without a count after which the velocity is zero; above zero [s]. A speed
     // below count/longest_gap reads as zero.
     double longest_gap;
     // Period of a position that wraps, such as a counter's, above zero [channel unit];
@@ -2940,8 +2940,8 @@ bowden_result bowden_observer_reset_f64(struct bowden_observer_f64 *observer);
 // slew-rate limit; 4 good samples cancel a bad one.
 //
 // `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
-// longest sample time, and `safe` [command unit] is the safe command from the
-// `after`-th bad sample in a row on. bowden_pid_init checks the numbers.
+// longest sample time, and `safe` [command unit] is the command from
+// the `after`-th consecutive bad sample onward. bowden_pid_init checks the numbers.
 bowden_result bowden_pid_settings_pi_f32(struct bowden_pid_settings_f32 *settings,
                                          float k_p,
                                          float k_i,
@@ -3036,8 +3036,8 @@ bowden_result bowden_pid_is_latched_f32(const struct bowden_pid_f32 *pid, uint32
 // slew-rate limit; 4 good samples cancel a bad one.
 //
 // `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
-// longest sample time, and `safe` [command unit] is the safe command from the
-// `after`-th bad sample in a row on. bowden_pid_init checks the numbers.
+// longest sample time, and `safe` [command unit] is the command from
+// the `after`-th consecutive bad sample onward. bowden_pid_init checks the numbers.
 bowden_result bowden_pid_settings_pi_f64(struct bowden_pid_settings_f64 *settings,
                                          double k_p,
                                          double k_i,

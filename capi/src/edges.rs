@@ -48,9 +48,9 @@ macro_rules! edges {
                 /// Size of one count, above zero [channel unit]: positions change by multiples of
                 /// it.
                 pub count: $f,
-                /// Counts that come faster than this time are averaged, above zero [s].
+                /// Time over which counts that come faster are averaged; above zero [s].
                 pub time_constant: $f,
-                /// After this time without a count the velocity is zero, above zero [s]. A speed
+                /// Time without a count after which the velocity is zero; above zero [s]. A speed
                 /// below count/longest_gap reads as zero.
                 pub longest_gap: $f,
                 /// Period of a position that wraps, such as a counter's, above zero [channel unit];

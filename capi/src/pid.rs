@@ -100,8 +100,8 @@ macro_rules! pid {
             /// slew-rate limit; 4 good samples cancel a bad one.
             ///
             /// `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
-            /// longest sample time, and `safe` [command unit] is the safe command from the
-            /// `after`-th bad sample in a row on. bowden_pid_init checks the numbers.
+            /// longest sample time, and `safe` [command unit] is the command from
+            /// the `after`-th consecutive bad sample onward. bowden_pid_init checks the numbers.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_settings_pi_ $f>](
                 settings: *mut [<bowden_pid_settings_ $f>],

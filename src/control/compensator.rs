@@ -421,7 +421,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
         Self::from_hysteresis(BoucWenState::new())
     }
 
-    /// A new state with the hysteresis state of the cable.
+    /// A new state that starts from the hysteresis state `eta` of the cable.
     ///
     /// # Errors
     /// The same as [`BoucWenState::with_eta`]: `eta` is not finite, or it lies beyond ±1.

@@ -4,7 +4,7 @@
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal phase; e is the mean of `reference − measured` over a
+//! A cycle is divided into cells of equal width in phase; e is the mean of `reference − measured` over a
 //! cell. The feed-forward interpolates linearly between the learned values at the middles of the
 //! cells. A cell learns `lead + half_width` cells after its end, when all required errors are
 //! known. The cost is therefore spread over the cycle, and a gait or a wheel needs no pause between

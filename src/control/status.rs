@@ -94,7 +94,7 @@ impl Status {
 ///
 /// ```
 /// use bowden::control::Fallback;
-/// let fallback = Fallback::try_new(10, 0.0)?; // zero from the tenth bad sample in a row on
+/// let fallback = Fallback::try_new(10, 0.0)?; // zero from the tenth consecutive bad sample onward
 /// assert_eq!((fallback.after(), fallback.command()), (10, Some(0.0)));
 /// assert_eq!(fallback.weight(), 4);
 /// # Ok::<(), bowden::Error>(())
@@ -148,7 +148,7 @@ constant!(f32);
 constant!(f64);
 
 impl<T: Real> Fallback<T> {
-    /// Applies the safe command \[command unit\] from the `after`-th bad sample in a row on.
+    /// Applies the safe command \[command unit\] from the `after`-th consecutive bad sample onward.
     ///
     /// The safe command ignores the slew-rate limit, because the machine needs it at once. It is
     /// applied until it is acknowledged; the first good sample after that starts from it.

@@ -10,7 +10,7 @@
 //! - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 //! - n ≥ 1: sharpness of the knee, larger is sharper.
 //!
-//! [`law`] has this equation as a function. It does not contain time. With `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1`
+//! [`law`] implements this equation. It does not contain time. With `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1`
 //! and the path `p = rho·|dx|` it reads `dzeta/dp = f(zeta)`:
 //!
 //! - loading, `zeta >= 0`: `f = 1 - zeta^n`;

@@ -199,8 +199,9 @@ impl<T: Real> Plausible<T> {
     /// readings repeat while the signal rests (an encoder), and for a sensor that is not
     /// synchronous with the loop.
     ///
-    /// During a gap the permitted distance grows with time. The check accepts a signal that has
-    /// really moved after `distance/rate`, rounded up to the next sample. The same is true of an
+    /// During a gap the permitted distance grows with time. If a signal
+    /// has really moved, the check accepts it after the time `distance/rate`, rounded up to the next
+    /// sample. The same is true of an
     /// encoder that was reset: [`Rates`](crate::signal::Rates) after this check then shows a
     /// velocity of up to `rate`.
     /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps this velocity

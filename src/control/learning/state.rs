@@ -2,8 +2,8 @@
 
 use crate::Real;
 
-/// State of [`IterativeLearning`](super::IterativeLearning) over two buffers, arrays or slices, from
-/// [`start`](super::IterativeLearning::start) or [`resume`](super::IterativeLearning::resume).
+/// State of [`IterativeLearning`](super::IterativeLearning), held in two buffers (arrays or slices).
+/// [`start`](super::IterativeLearning::start) or [`resume`](super::IterativeLearning::resume) makes it.
 ///
 /// ```
 /// use bowden::control::IterativeLearning;

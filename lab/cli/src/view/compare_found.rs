@@ -124,7 +124,7 @@ const DROPPED: &[usize] = &[1, 4];
 
 fn seed(outcome: &Outcome) -> Columns {
     let name = format!("True rms [N·m], seed {}", outcome.seed);
-    let header = [&name, "no model", "baseline", "with found", "change"];
+    let header = [&name, "no model", "baseline", "found terms", "change"];
     let mut rows = Columns::new(&header, DROPPED);
     for pair in &outcome.pairs {
         rows.add([
@@ -140,7 +140,7 @@ fn seed(outcome: &Outcome) -> Columns {
 
 const NOTES: [&str; 4] = [
     "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
-    "With found: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
+    "Found terms: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
     "Third regressor: the found terms enter the adaptive law with their bench values as priors. Its baseline is the law without them.",
     "Quiet: the loop has a fifth of the gains of Nguyen et al. (2018). It shows what the full gains hide.",
 ];

@@ -246,8 +246,8 @@ pub fn page() -> String {
     let mut page = String::from(
         "# Findings\n\n\
          The list `findings` of `bowden identify --json`: what must be known about a record, its model or the \
-         rig besides the missing mechanisms. Each row is an example; the numbers and names in it are the \
-         `evidence`.\n\n\
+         rig besides the missing mechanisms. Each row shows an example, whose numbers and names come from \
+         its `evidence`.\n\n\
          | code | severity | words |\n|---|---|---|\n",
     );
     let mut codes = BTreeSet::new();

@@ -418,7 +418,7 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
             "the model was fitted with a cut-off of {own} Hz: its own error is not exactly comparable"
         )),
         (None, None) => notes.push(
-            "the model file states no cut-off: it is derived from the input of this record; --cutoff sets it".to_owned(),
+            "the model file states no cut-off, so it is derived from the input of this record; --cutoff sets it".to_owned(),
         ),
         _ => {}
     }

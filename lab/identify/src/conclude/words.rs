@@ -177,7 +177,7 @@ impl Finding {
             Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input: is it a drift of `{output}`, for example of a sensor that warms up? A record of a rig that has run for longer would show which of the two it is."),
             Self::HysteresisLeftOut => "The baseline hysteresis is excluded from the model: this record cannot distinguish it from a spring and an offset.".to_owned(),
             Self::HysteresisCancelled { share } => format!(
-                "On this record the hysteresis differs from a spring and an offset by {} of the output: their gains nearly cancel, and the model holds only within the recorded range.",
+                "On this record the hysteresis differs from a spring and an offset by only {} of the output: its gain and those of the spring and the offset nearly cancel, and the model holds only within the recorded range.",
                 percent(*share)
             ),
             Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.", terms.join(", ")),

@@ -27,7 +27,7 @@ fn converted(column: &mut Column) -> Option<String> {
     }
     column.values.iter_mut().for_each(|value| *value *= factor);
     Some(format!(
-        "`{}` converted from {unit} to {UNIT}, the unit of gravity and ripple",
+        "`{}` converted from {unit} to {UNIT}, the angle unit of the effects `gravity` and `ripple`",
         column.name
     ))
 }

@@ -214,7 +214,7 @@ fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
     ] {
         let record = angle(unit, of_a_radian);
         let said = |name: &str| {
-            format!("`{name}` converted from {unit} to rad, the unit of gravity and ripple")
+            format!("`{name}` converted from {unit} to rad, the angle unit of the effects `gravity` and `ripple`")
         };
         assert_eq!(record.notes, [said("stretch"), said("phi_p")]);
         for name in ["phi_p", "stretch"] {
@@ -265,7 +265,7 @@ fn an_angle_in_degrees_is_unwrapped_before_it_is_converted() {
         record.notes,
         [
             "`phi_p` wraps around at 360 once: unwrapped",
-            "`phi_p` converted from deg to rad, the unit of gravity and ripple"
+            "`phi_p` converted from deg to rad, the angle unit of the effects `gravity` and `ripple`"
         ]
     );
     let last = record.channel("phi_p").unwrap().values[399];

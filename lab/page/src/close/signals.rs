@@ -175,10 +175,10 @@ fn zoom(signals: &Signals, file: &File, id: &str) -> Option<Chart> {
     let title = "Where the error is largest";
     let [first, last] = &signals.models;
     let description = format!(
-        "On {segment} the largest error is at {at} s: {} by {before}, {} by {after}{}.",
+        "On {segment} the largest error is at {at} s: {before} for {} and {after}{} for {}.",
         first.name,
-        last.name,
-        unit.map_or_else(String::new, |u| format!(" {u}"))
+        unit.map_or_else(String::new, |u| format!(" {u}")),
+        last.name
     );
     let chart = Chart::new(
         id,
@@ -307,7 +307,7 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
             (format!("{:.1}", record.seconds)) " s; " (record.mode.name()) " mode: "
             (record.input) " → " (record.output)
             @if !record.channels.is_empty() { ", with " (record.channels.join(", ")) }
-            ". All signals pass through one zero-phase filter at " (record.cutoff) " Hz. Parameters are fitted on "
+            ". All signals pass through the same zero-phase filter with a cut-off of " (record.cutoff) " Hz. Parameters are fitted on "
             i { "fit" } ", " i { "selection" } " rejects a term that raises the error, and nothing is fitted to " i { "held-out" } "."
         }
         @for note in &record.notes { p class="note" { (note) } }

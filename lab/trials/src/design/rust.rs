@@ -139,7 +139,7 @@ fn settings(name: &str, own: &PidSettings<f64>, out: &mut String) {
     let plain = format!("PidSettings::new({k_p}, {k_i}, LIMITS, LONGEST_DT, FALLBACK)");
     line!(out);
     let unit = "[command unit/(N·m)] and k_i [command unit/(N·m·s)]";
-    line!(out, "/// {name}: k_p {unit} come first.");
+    line!(out, "/// {name}: the first two arguments are k_p {unit}.");
     let what = format!("const {name}_SETTINGS: PidSettings<f32>");
     if own.k_d == 0.0 {
         item(&what, &plain, out);
