@@ -189,7 +189,7 @@ fn a_pattern_without_files_or_with_several_is_refused() {
     assert_eq!(line(&none, &[]), ": no file matches this pattern");
     folder.file("a.csv", csv());
     folder.file("b.csv", csv());
-    let line = refused(&["plan", &none]);
+    let line = refused(&["power", &none]);
     assert!(
         line.ends_with("2 files match this pattern; exactly one must match"),
         "{line}"

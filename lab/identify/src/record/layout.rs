@@ -47,7 +47,7 @@ pub(super) fn any<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, Rec
             let (start, before) = start_of(text, line)?;
             Rows::new(&text[start..]).after(before)
         }
-        None => match below(text, options, assign) {
+        None => match below(text, options, (assign, true)) {
             Some(Ok(table)) => return Ok(table),
             _ => Rows::new(text),
         },
@@ -67,7 +67,7 @@ pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, Re
     }
     match named(Rows::new(text), options, roles::assign) {
         Ok(table) => with_units(table),
-        Err(error) => below(text, options, roles::assign).unwrap_or(Err(error)),
+        Err(error) => below(text, options, (roles::assign, false)).unwrap_or(Err(error)),
     }
 }
 
@@ -350,11 +350,11 @@ fn nameless<'a>(
 }
 
 /// The first table below the first line whose names are those that are asked for; else why the
-/// names above the first table are not.
+/// names above the first table are not. Where any names will do, those of a row of units do not.
 fn below<'a>(
     text: &'a str,
     options: &Options,
-    assign: Assign,
+    (assign, is_any): (Assign, bool),
 ) -> Option<Result<Table<'a>, RecordError>> {
     // Of the row just above the first table, units apart: it was meant to have the names.
     let mut refused: Option<Option<RecordError>> = None;
@@ -362,7 +362,7 @@ fn below<'a>(
         let head = Head::new(text, separator);
         for first in head.tables() {
             for names in (first.saturating_sub(ABOVE)..first).rev() {
-                if head.is_blank(names) {
+                if head.is_blank(names) || is_any && head.is_units(names) {
                     continue;
                 }
                 let own = Rows::separated_by(separator, &text[head.lines[names].0..]);

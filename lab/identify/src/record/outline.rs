@@ -232,6 +232,6 @@ mod tests {
         let numbers: Vec<usize> = found.iter().map(|line| line.number).collect();
         assert_eq!(numbers, [1, 2, 3]);
         assert_eq!(found[0].cells, ["t", "tau_i", "tau_o", "note"]);
-        assert!(excerpt(b"\x89PNG", 1, 1, &Options::default()).is_empty());
+        assert!(excerpt(b"SQLite format 3\0", 1, 1, &Options::default()).is_empty());
     }
 }
