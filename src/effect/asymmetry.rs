@@ -9,9 +9,9 @@ use crate::Real;
 plain! {
     /// Asymmetry: the difference between the two directions.
     ///
-    /// Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All are even, while friction is odd. Together
-    /// with `viscous` and `drag` the first two give one coefficient for each sign of v. The last
-    /// two give a loop that is higher on one side.
+    /// Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All four are even in their argument, while
+    /// friction is odd. Together with `viscous` and `drag`, the first two give one coefficient for
+    /// each sign of v. The last two give a loop that is higher on one side.
     ///
     /// Source: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of
     /// EMPS", *Workshop on Nonlinear System Identification Benchmarks*, 2019; for the
@@ -66,7 +66,7 @@ impl<T: Real> Regressor<T> for AsymmetryDrag {
 }
 
 plain! {
-    /// Asymmetry of the loop.
+    /// Asymmetry of the hysteresis loop.
     ///
     /// Formula: `|eta|`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEta
@@ -90,7 +90,7 @@ impl<T: Real> Regressor<T> for AsymmetryEta {
 }
 
 plain! {
-    /// Quadratic asymmetry of the loop.
+    /// Quadratic asymmetry of the hysteresis loop.
     ///
     /// Formula: `eta²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEtaSquared

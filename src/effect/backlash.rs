@@ -1,4 +1,4 @@
-//! Backlash and dead zone: a gap without transmission.
+//! Backlash and dead zone: a gap in which nothing is transmitted.
 
 use super::info::{Info, Regressor, Stage};
 use super::shaped::shaped;
@@ -8,15 +8,15 @@ use crate::signal::clamp;
 use crate::Real;
 
 shaped! {
-    /// The play of half-width `r` minus its input; it starts in mid-gap.
+    /// The play operator of half-width `r` minus its input; it starts in mid-gap.
     ///
     /// Formulas: `play(x; r) − x`, the effect of a gap of half-width r, and `x − clamp(x, −r, r)`,
-    /// a spring with a gap around zero. The play is flat over the distance 2·r after each reversal.
-    /// In series the same play acts on the transmission's input: hysteresis and gain then see
-    /// `play(x; r)` instead of x.
+    /// a spring with a gap around zero. After each reversal the play output is constant over the
+    /// distance 2·r. In series, the same play acts on the transmission's input: the hysteresis and
+    /// the gain then act on `play(x; r)` instead of x.
     ///
-    /// `play(x; r) − x` is `−stop(x; r)`: it equals [`Presliding`](super::Presliding) with the opposite
-    /// sign, multiplied by r. No record can distinguish the two.
+    /// `play(x; r) − x` is `−stop(x; r)`, which is [`Presliding`](super::Presliding) times −r. No
+    /// record can distinguish the two.
     ///
     /// Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
     /// — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -29,7 +29,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     Backlash {
-        /// Half of the gap \[channel unit\].
+        /// Half-width of the gap \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
 }
@@ -56,11 +56,12 @@ impl<T: Real> Regressor<T> for Backlash<T> {
 }
 
 shaped! {
-    /// A play in series: slack between the measured input and the transmission.
+    /// Play in series: slack between the measured input and the transmission.
     ///
-    /// This is an input stage (see [`Effect::is_input_stage`](super::Effect::is_input_stage)). With
-    /// a gain of one the transmission sees `play(x; r)`; with a lower gain, part of the gap is
-    /// bridged. The play starts in mid-gap.
+    /// This effect is an input stage (see
+    /// [`Effect::is_input_stage`](super::Effect::is_input_stage)). With a gain of 1, the
+    /// transmission receives `play(x; r)`; with a lower gain, part of the gap is bridged. The play
+    /// starts in mid-gap.
     ///
     /// Formula: `play(x; r) − x, added to the input`; source: [`Backlash`](super::Backlash).
     ///
@@ -71,7 +72,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     PlayInSeries {
-        /// Half of the gap \[input unit\].
+        /// Half-width of the gap \[input unit\].
         r: Positive, Dimension::POSITION;
     }
 }
@@ -102,7 +103,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     DeadZone {
-        /// Half of the gap \[channel unit\].
+        /// Half-width of the gap \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
 }

@@ -1,8 +1,8 @@
-//! Finite for any input: regressors saturate if the arithmetic overflows.
+//! Finite results for any input: regressors saturate if the arithmetic overflows.
 
 use crate::Real;
 
-/// The nearest finite value: infinities become the largest, NaN becomes 0.
+/// The nearest finite value: an infinity becomes the largest value of its sign, NaN becomes 0.
 #[cfg_attr(kani, kani::ensures(|result| result.is_finite()))]
 #[inline]
 pub(crate) fn saturate<T: Real>(value: T) -> T {

@@ -12,10 +12,11 @@ shaped! {
     /// Friction proportional to the tension, exponential in the wrap angle.
     ///
     /// Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle from its origin.
-    /// With a gain of mu this is Euler-Eytelwein's `load·(exp(mu·x) − 1)`, the tension that
-    /// friction adds along the wrap. As mu goes to zero it becomes `load·x·tanh(v/v_e)`. A wrap x_0
-    /// at the origin adds load friction, `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and makes the gain
-    /// `mu·exp(mu·x_0)`. The wrap grows with x, so mu is positive.
+    /// With a gain of mu this is the Euler-Eytelwein law: friction adds the tension
+    /// `load·(exp(mu·x) − 1)` along the wrap. As mu tends to zero, the regressor becomes
+    /// `load·x·tanh(v/v_e)`. A wrap x_0 at the origin adds load friction,
+    /// `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and changes the gain to `mu·exp(mu·x_0)`. The wrap
+    /// grows with x, so mu is positive.
     ///
     /// Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
     /// T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
@@ -57,7 +58,7 @@ impl<T: Real> Regressor<T> for Capstan<T> {
     }
 }
 
-/// `(exp(mu·x) − 1)/mu`, or x itself if both differ by less than rounding: there the product
+/// `(exp(mu·x) − 1)/mu`, or x itself if the two differ by less than rounding: there the product
 /// may be subnormal or 0 and the quotient arbitrary.
 #[inline]
 fn growth<T: Real>(x: T, mu: T) -> T {

@@ -9,8 +9,8 @@ use crate::Real;
 shaped! {
     /// Coulomb friction, smoothed over the velocity `v_e`.
     ///
-    /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a constant width that is
-    /// too sharp, a false Stribeck effect would compensate the error.
+    /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a fixed width that is too
+    /// small, a spurious Stribeck effect would compensate for the error.
     ///
     /// Source: S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding
     /// dry, boundary and mixed lubricated contacts", *Tribology International* 40(4),

@@ -1,4 +1,4 @@
-//! Creep: a response that continues at constant input.
+//! Creep: the response continues to change at constant input.
 
 use super::info::{Info, Regressor};
 use super::lag::{held_share, low_pass};
@@ -10,8 +10,9 @@ use crate::Real;
 shaped! {
     /// A first-order low-pass of x.
     ///
-    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. Several elements with tau a decade apart
-    /// give the logarithmic creep of polymers and piezo stacks. The state starts at the first x.
+    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. Several elements with time constants a
+    /// decade apart give the logarithmic creep of polymers and piezo stacks. The state starts at
+    /// the first x.
     ///
     /// Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
     /// creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.

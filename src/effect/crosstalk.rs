@@ -1,4 +1,4 @@
-//! Crosstalk: proportional to another channel.
+//! Crosstalk: an output proportional to another channel.
 
 use super::info::{Info, Regressor};
 use super::shaped::plain;
@@ -7,7 +7,7 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 plain! {
-    /// Crosstalk: proportional to another channel.
+    /// Crosstalk: an output proportional to another channel.
     ///
     /// Formula: `x` of the other channel.
     ///

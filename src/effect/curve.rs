@@ -1,4 +1,4 @@
-//! Curve: a measured characteristic without a formula, piecewise linear.
+//! Curve: a measured, piecewise linear characteristic without a formula.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -9,14 +9,14 @@ use crate::Real;
 shaped! {
     /// One segment of a curve over the position.
     ///
-    /// Formulas: `clip((x − from)/width, 0, 1)` and the same of v: one segment, which rises from 0 to 1
-    /// and stays there. A curve through the points `(x_1, f_1)` to `(x_N, f_N)`, constant beyond its
-    /// ends, is an offset and N − 1 segments:
+    /// Formulas: `clip((x − from)/width, 0, 1)`, and the same for v: one segment, which rises from
+    /// 0 to 1 and stays there. A curve through the points `(x_1, f_1)` to `(x_N, f_N)`, constant
+    /// beyond its ends, is an offset and N − 1 segments:
     /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`.
-    /// [`Term::curve`](crate::model::Term::curve) gives these N terms. Over a load, the channel of the
-    /// source is the load.
+    /// [`Term::curve`](crate::model::Term::curve) gives these N terms. For a curve over the load,
+    /// the channel of the source is the load.
     ///
-    /// A segment is bounded by 0 and 1 for any input, so that it can be a regressor of the
+    /// A segment lies between 0 and 1 for any input, so it can be a regressor of the
     /// [adaptive law](crate::control::Adaptive), which then learns the curve point by point.
     ///
     /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter III (piecewise linear
@@ -31,7 +31,7 @@ shaped! {
     CurvePosition {
         /// Position at which the segment begins \[channel unit\].
         from: Finite, Dimension::POSITION;
-        /// Its length \[channel unit\].
+        /// Length of the segment \[channel unit\].
         width: Positive, Dimension::POSITION;
     }
 }
@@ -50,12 +50,12 @@ shaped! {
     CurveVelocity {
         /// Velocity at which the segment begins \[channel unit/s\].
         from: Finite, Dimension::VELOCITY;
-        /// Its length \[channel unit/s\].
+        /// Length of the segment \[channel unit/s\].
         width: Positive, Dimension::VELOCITY;
     }
 }
 
-/// The share of a segment that lies below a value: one copy in an image, not one per segment.
+/// The fraction of a segment below a value: one copy in a firmware image, not one per segment.
 #[inline(never)]
 fn share<T: Real>(value: T, from: T, width: T) -> T {
     let along = value - from;

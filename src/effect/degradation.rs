@@ -1,4 +1,4 @@
-//! Degradation: the loop shrinks, or grows, with the work done.
+//! Degradation: the loop shrinks or grows with the work done.
 
 use super::bounds::saturate;
 use super::info::{Info, Regressor};
@@ -9,16 +9,16 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// A loop that changes with the work and settles.
+    /// A loop that changes with the work done and then settles.
     ///
-    /// Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input (trapezoids,
-    /// from the first sample on), for any channel. For W ≪ w_c it is the linear `eta·W/w_c`. The limit
-    /// is `eta`: after running-in the loop stays bounded. The sum is compensated, so small steps count
-    /// even in `f32`.
+    /// Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input
+    /// (trapezoids, from the first sample on), for any channel. For W ≪ w_c it is the linear
+    /// `eta·W/w_c`. Its limit is `eta`, so the loop stays bounded after running-in. The sum is
+    /// compensated, so small steps count even in `f32`.
     ///
     /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems", *Journal of
     /// the Engineering Mechanics Division* 107(6), 1981, where the change is linear in the work; here
-    /// the exponential bounds it.
+    /// the exponential bounds the change.
     ///
     /// ```
     /// use bowden::{effect::Degradation, Error};
@@ -27,7 +27,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     Degradation {
-        /// Work after which 63 % of the change is done \[input unit\].
+        /// Work after which the change reaches 63 % \[input unit\].
         w_c: Positive, Dimension { input: 1, ..Dimension::ONE };
     }
 }

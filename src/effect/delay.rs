@@ -10,11 +10,11 @@ use crate::Real;
 plain! {
     /// A pure delay: the loop opens with frequency.
     ///
-    /// The gain is the delay T \[s\]. The output passes a first-order all-pass,
-    /// `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. Its magnitude is 1 at every
-    /// frequency, and it is exact for `T = dt`. Its delay is T with a relative error of `(w·T)²/12` or,
-    /// for a T below dt, of `(w·dt)²/12`. The first sample is not delayed. A negative T advances the
-    /// output by the first-order term of its Taylor series.
+    /// The gain is the delay T \[s\]. The output passes through a first-order all-pass,
+    /// `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. The all-pass has magnitude
+    /// 1 at every frequency, and is exact for `T = dt`. Its delay is T with a relative error of
+    /// `(w·T)²/12` or, for a T below dt, of `(w·dt)²/12`. The first sample is not delayed. A
+    /// negative T advances the output by the first-order term of its Taylor series.
     ///
     /// The regressor is the slope at T = 0: `−d(output)/dt`, computed as the backward difference. The
     /// delay is an output stage: it reads the sum of all terms before it.

@@ -11,7 +11,7 @@ shaped! {
     /// Load friction while the load drives the motion.
     ///
     /// Formula: `|load|·tanh(v/v_e)` if `load·v > 0` (drive), or if `load·v < 0` (back-drive),
-    /// otherwise 0. The two add up to `load-friction`.
+    /// otherwise 0. The two sum to `load-friction`.
     ///
     /// Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
     /// characterization of backdrivability towards improved proprioceptive control",
@@ -88,7 +88,7 @@ impl<T: Real> Regressor<T> for BackDriveFriction<T> {
     }
 }
 
-/// The sign of load·v, without the product, which could underflow.
+/// The sign of load·v, computed without the product, which could underflow.
 fn sense<T: Real>(at: &Inputs<T>) -> i8 {
     let (load, v) = (at.load, at.motion.velocity);
     if load == T::zero() || v == T::zero() {

@@ -1,4 +1,4 @@
-//! Drag: odd in the velocity, with more than linear growth.
+//! Drag: odd in the velocity, and growing faster than linearly.
 
 use super::info::{Info, Regressor};
 use super::shaped::plain;
@@ -7,7 +7,7 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 plain! {
-    /// Drag: odd in the velocity, with more than linear growth.
+    /// Drag: odd in the velocity, and growing faster than linearly.
     ///
     /// Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
     ///

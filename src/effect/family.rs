@@ -5,7 +5,7 @@ use core::fmt;
 
 macro_rules! families {
     ($($variant:ident = $name:literal),* $(,)?) => {
-        /// The families of the catalogue; the names are part of the interface.
+        /// The families of the catalogue; the names are part of the public interface.
         ///
         /// ```
         /// use bowden::effect::Family;

@@ -20,21 +20,23 @@ shaped! {
     /// `dw/dx = 1 + (g + 2·beta)·|w|` on the return, with w = 0 at the first sample. It has the
     /// unit of x; the gain is the initial stiffness.
     ///
-    /// In the form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n` with n = 1 it is `z = A·w`,
-    /// `beta = b` and `g = −(b + c)`. This is the branch beyond sigma in \[−1, 1\] of
-    /// [`BoucWen`](crate::hysteresis::BoucWen), which starts where b + c passes zero.
+    /// In the form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n` with n = 1, `z = A·w`, `beta = b`
+    /// and `g = −(b + c)`. This branch lies beyond the range of
+    /// [`BoucWen`](crate::hysteresis::BoucWen), with sigma outside \[−1, 1\]; it begins where b + c
+    /// passes zero.
     ///
     /// # Bounds
-    /// - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` for any motion. This case is a `BoucWen`, not an
-    /// effect of this kind.
-    /// - For b + c ≤ 0 no such bound exists: a longer stroke reaches a larger w. With `beta > 0`, which
-    /// the constructor requires, the stroke bounds w. Over a motion within a range of length R,
-    /// `|w| ≤ (exp(g·R) − 1)/g`, for any distance travelled. Proof: the curve
-    /// `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the
-    /// same slope, and falls with `1 + (g + 2·beta)·w`, which is steeper; so w never exceeds U. The
-    /// same holds for negative w. With `beta < 0` small reversals would increase w without limit.
-    /// - Cycles dissipate energy: the area of a loop is never negative, because the return branch lies
-    /// below the outgoing one.
+    /// - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` for any motion. This case is a `BoucWen`, not a
+    ///   `Hardening`.
+    /// - For b + c ≤ 0 no such bound exists: a longer stroke reaches a larger w. With `beta > 0`,
+    ///   which the constructor requires, the stroke bounds w. Over a motion within a range of
+    ///   length R, `|w| ≤ (exp(g·R) − 1)/g`, for any distance travelled. Proof: the curve
+    ///   `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the
+    ///   same slope, and falls with the steeper slope `1 + (g + 2·beta)·w`; so w never exceeds U.
+    ///   The same holds for negative w. With `beta < 0`, small reversals would increase w without
+    ///   limit.
+    /// - Cycles dissipate energy: the area of a loop is never negative, because the return branch
+    ///   lies below the outward one.
     ///
     /// If x is monotone between two samples, the step is the exact solution for any dx. If the
     /// exponential overflows, the step saturates at the largest float.
@@ -43,7 +45,7 @@ shaped! {
     /// Engineering Mechanics Division* 102(2), 1976; F. Ikhouane, J. Rodellar, *Systems with
     /// Hysteresis*, 2007, table 2.1 (classes); the values of J. P. Noël, M. Schoukens, "Hysteretic
     /// benchmark with a dynamic nonlinearity", *Workshop on Nonlinear System Identification
-    /// Benchmarks*, 2016, are A = 5e4 N/m, b = 800 1/m, c = −1100 1/m: g = 300, beta = 800 1/m.
+    /// Benchmarks*, 2016, are A = 5e4 N/m, b = 800 1/m, c = −1100 1/m, so g = 300, beta = 800 1/m.
     ///
     /// ```
     /// use bowden::{effect::Hardening, Error};
@@ -60,7 +62,7 @@ shaped! {
 }
 
 impl<T: Real> Hardening<T> {
-    /// The largest state over a motion within a range of that length.
+    /// The largest state over a motion within a range of this length.
     #[must_use]
     pub fn bound(&self, range: T) -> T {
         saturate(grown(T::zero(), self.g, range.abs()))
@@ -90,7 +92,7 @@ impl<T: Real> Regressor<T> for Hardening<T> {
         let (zero, x) = (T::zero(), at.motion.position);
         let [before, w, ..] = state.memory.unwrap_or([x, zero, zero, zero]);
         let change = saturate(x - before);
-        // Along the motion: below zero on the return, above it away from zero.
+        // Along the motion: negative on the return, positive away from zero.
         let sense = if change < zero { -T::one() } else { T::one() };
         let (along, path) = (sense * w, change.abs());
         let next = if along < zero {

@@ -1,4 +1,4 @@
-//! Inertia: proportional to the acceleration, even in the velocity.
+//! Inertia: an output proportional to the acceleration, and even in the velocity.
 
 use super::info::{Info, Regressor};
 use super::shaped::plain;
@@ -7,11 +7,11 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 plain! {
-    /// Inertia: proportional to the acceleration, even in the velocity.
+    /// Inertia: an output proportional to the acceleration, and even in the velocity.
     ///
     /// Formula: `a`.
     ///
-    /// Source: I. Newton, *Principia*, 1687; as a regressor of identification,
+    /// Source: I. Newton, *Principia*, 1687; as an identification regressor,
     /// W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002.
     Inertia
 }

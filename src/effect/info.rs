@@ -5,13 +5,13 @@ use super::{EffectState, Family, Inputs};
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// A unit, as exponents of the units of the record.
+/// A unit, as exponents of the record's units.
 ///
 /// The coefficient of an effect has the unit of the output divided by this unit.
 ///
 /// ```
 /// use bowden::effect::{Dimension, Effect};
-/// // Viscous friction regresses on a velocity: channel unit per second.
+/// // The regressor of viscous friction is a velocity: channel unit per second.
 /// assert_eq!(Effect::<f64>::Viscous.dimension(), Dimension { channel: 1, time: -1, ..Dimension::ONE });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -68,7 +68,7 @@ impl Dimension {
     };
 }
 
-/// Response of a regressor to a change of sign.
+/// How a regressor responds to a change of sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -77,7 +77,7 @@ pub enum Parity {
     Even,
     /// The regressor changes its sign.
     Odd,
-    /// Neither.
+    /// Neither of the two.
     Neither,
 }
 
@@ -92,8 +92,8 @@ pub enum Parity {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Symmetry {
-    /// Under (x, v) → (−x, −v): all signed signals change sign along the whole path, that is
-    /// motion, input, load, eta and output. Times do not change sign.
+    /// Under (x, v) → (−x, −v): all signed signals (motion, input, load, eta and output) change
+    /// sign along the whole path. Times do not change sign.
     pub mirror: Parity,
     /// Under v → −v alone, at one instant: x, a, load and eta stay the same. An effect with memory
     /// returns [`Parity::Neither`]: its path has no such mirror image.
@@ -139,7 +139,7 @@ pub enum Quantity {
 pub enum Range {
     /// Any finite number.
     Finite,
-    /// Finite and above zero: a fit should vary its logarithm.
+    /// Finite and above zero; a fit should vary its logarithm.
     Positive,
 }
 
@@ -179,7 +179,7 @@ pub struct Info {
     pub dimension: Dimension,
     /// The regressor's symmetries.
     pub parity: Symmetry,
-    /// The quantities that the effect reads; if one of them is not finite, the regressor returns 0.
+    /// The quantities that the effect reads. If one of them is not finite, the regressor returns 0.
     pub reads: &'static [Quantity],
     /// Whether the effect has a memory of earlier samples.
     pub memory: bool,
@@ -221,12 +221,12 @@ pub trait Regressor<T>: sealed::Sealed {
     #[doc(hidden)]
     const STAGE: Stage = Self::INFO.stage();
 
-    /// The regressor, if all its inputs are finite. It may overflow to an infinity, and be NaN
-    /// if this means zero; the memory must stay finite.
+    /// The regressor, if all its inputs are finite. It may overflow to an infinity, and may be NaN
+    /// in place of zero; the memory must stay finite.
     #[doc(hidden)]
     fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T;
 
-    /// The part of [`value`](Self::value) that depends on `dt` alone: computed once for a
+    /// The part of [`value`](Self::value) that depends on `dt` alone; it is computed once per
     /// record.
     #[doc(hidden)]
     #[inline]
@@ -245,7 +245,7 @@ pub trait Regressor<T>: sealed::Sealed {
     }
 
     /// The contribution of a term with this gain, if all its inputs are finite: gain times
-    /// regressor. An output stage that is not linear in its gain is an exception. It may
+    /// regressor, except for an output stage that is not linear in its gain. The contribution may
     /// overflow.
     #[doc(hidden)]
     #[inline]

@@ -8,13 +8,13 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// The low-pass of the output minus the output; starts at the first output.
+    /// The low-pass of the output minus the output; its state starts at the first output.
     ///
-    /// Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds each
-    /// sample over its dt, so it is exact for steps at any dt. Rounding limits the increment of a step,
-    /// so the memory stops short of its target by up to tau/dt times half an epsilon. In `f32` this
-    /// distance is 0.06 % at tau/dt of 10^4 and 6 % at 10^6. The lag is an output stage: it reads the
-    /// sum of all terms before it.
+    /// Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds
+    /// each sample over its dt, so it is exact for steps at any dt. Rounding limits the increment
+    /// of a step, so the memory stops at a distance from its target of up to tau/dt times half an
+    /// epsilon. In `f32` this distance is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6. The lag is an
+    /// output stage: it reads the sum of all terms before it.
     ///
     /// Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
     ///
@@ -57,7 +57,7 @@ impl<T: Real> Regressor<T> for Lag<T> {
     }
 }
 
-/// Share of the distance to a held input that a first-order low-pass covers:
+/// Fraction of the distance to a held input that a first-order low-pass covers in one step:
 /// `1 − exp(−dt/tau)`.
 #[inline]
 pub(super) fn held_share<T: Real>(tau: T, dt: T) -> T {

@@ -1,4 +1,4 @@
-//! Load-dependent dry friction: the law of Amontons.
+//! Load-dependent dry friction: Amontons' law.
 
 use super::coulomb::sign;
 use super::info::{Info, Regressor};

@@ -3,8 +3,8 @@
 //! Each effect is one *regressor* times a gain that the fit identifies. A regressor is a
 //! function of the motion, the load and the hysteresis state. Each effect states its formula,
 //! unit, symmetries, shape parameters and source. The symmetries show which effects can explain
-//! a residual, and which experiment separates two effects. Each effect is a type of its own,
-//! and a variant of [`Effect`].
+//! a residual, and which experiment separates two effects from each other. Each effect is a type
+//! of its own and a variant of [`Effect`].
 //!
 //! A regressor is finite for finite input: it saturates if the arithmetic overflows. If an
 //! input is not finite or `dt` is negative, the regressor returns 0 and leaves its memory
@@ -65,7 +65,7 @@ use info::sealed::Sealed;
 pub(crate) use info::Stage;
 use shaped::{Shaped, COUNT};
 
-/// Common part of the types of effects without shapes; each type has its own file.
+/// Common part of the effect types without shape parameters; each type has its own file.
 macro_rules! plain_types {
     ($($module:ident: $($plain:ident)+;)*) => {
         $($(
@@ -82,7 +82,7 @@ macro_rules! plain_types {
     };
 }
 
-/// Common part of the types of effects with shape parameters; each type has its own file.
+/// Common part of the effect types with shape parameters; each type has its own file.
 macro_rules! shaped_types {
     ($($module:ident: $($shaped:ident)+;)*) => {
         $($(
@@ -99,7 +99,7 @@ macro_rules! shaped_types {
     };
 }
 
-/// The enum of all effects and the dispatch to each one's own file.
+/// The enum of all effects, and the dispatch to the file of each.
 ///
 /// Compact forms store the index of an effect in the enum: add new effects under `later`.
 macro_rules! effects {
@@ -243,14 +243,14 @@ macro_rules! effects {
             }
 
             /// The regressors of a record, one per sample. Each equals
-            /// [`regressor`](Self::regressor) bit for bit, at lower cost for many samples.
+            /// [`regressor`](Self::regressor) bit for bit; for many samples the cost is lower.
             pub fn regressors(
                 &self,
                 state: &mut EffectState<T>,
                 record: impl Iterator<Item = Inputs<T>>,
                 take: impl FnMut(T),
             ) {
-                // The effect is matched once, not once a sample.
+                // The effect is matched once per record, not once per sample.
                 match self {
                     $($(Self::$plain => along(&$plain, state, record, take),)+)*
                     $($(Self::$shaped(config) => along(config, state, record, take),)+)*
@@ -259,7 +259,7 @@ macro_rules! effects {
                 }
             }
 
-            /// The regressor at one sample; the caller multiplies by the gain.
+            /// The regressor at one sample; the caller multiplies it by the gain.
             ///
             /// The result is finite for finite input. If a number that the effect reads is not
             /// finite, or a `dt` that it reads is negative, the result is 0 and `state` is
@@ -332,7 +332,7 @@ fn evaluate<T: Real, R: Regressor<T>>(effect: &R, state: &mut EffectState<T>, at
     }
 }
 
-/// The same as [`evaluate`], at each sample.
+/// [`evaluate`] at each sample.
 #[inline]
 fn along<T: Real, R: Regressor<T>>(
     effect: &R,
@@ -343,7 +343,7 @@ fn along<T: Real, R: Regressor<T>>(
     let mut known: Option<(T, T)> = None;
     record.for_each(|at| {
         let share = match known {
-            // Zero equals its negative, whose contribution has the opposite sign.
+            // 0.0 == -0.0, but the two give contributions of opposite sign.
             Some((dt, share)) if dt == at.dt && dt != T::zero() => share,
             _ => effect.share(at.dt),
         };
@@ -414,7 +414,7 @@ impl<T: Real> Effect<T> {
     }
 
     /// The contributions of a term with this gain along a record, one per sample. Each equals
-    /// [`contribution`](Self::contribution) bit for bit, at lower cost for many samples.
+    /// [`contribution`](Self::contribution) bit for bit; for many samples the cost is lower.
     pub fn contributions(
         &self,
         gain: T,

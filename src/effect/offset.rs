@@ -11,7 +11,7 @@ plain! {
     ///
     /// Formula: `1`.
     ///
-    /// Source: part of every linear regression; L. Ljung, *System Identification*, 1999.
+    /// Source: part of any linear regression; L. Ljung, *System Identification*, 1999.
     Offset
 }
 

@@ -1,4 +1,4 @@
-//! Pinching: the loop is narrow, or wide, at its centre.
+//! Pinching: the loop is narrower or wider at its centre.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -21,7 +21,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     Pinching {
-        /// Width, in parts of eta.
+        /// Width, in the units of eta (dimensionless).
         w: Positive, Dimension::ONE;
     }
 }

@@ -1,4 +1,4 @@
-//! Power-law drag: odd in the velocity, with less than linear growth (shear thinning).
+//! Power-law drag: odd in the velocity, and growing slower than linearly (shear thinning).
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -9,12 +9,12 @@ use crate::Real;
 shaped! {
     /// Drag that grows with a power of the velocity.
     ///
-    /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless, and
-    /// the gain is the force at 1 channel unit/s, in the output's unit. A record in mm gives a
-    /// different gain from the same record in m, but the same exponent. For `0 < a < 1` the force rises
-    /// steeply from standstill and flattens. This range lies between [`Viscous`](super::Viscous)
-    /// (a = 1) and Coulomb friction (a towards 0). The function is continuous at v = 0, where its slope
-    /// is infinite.
+    /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless,
+    /// and the gain is the force at 1 channel unit/s, in the output's unit. The same record gives a
+    /// different gain in mm than in m, but the same exponent. For `0 < a < 1` the force rises
+    /// steeply from standstill and then flattens. This range lies between Coulomb friction (the
+    /// limit a → 0) and [`Viscous`](super::Viscous) (a = 1). The function is continuous at v = 0,
+    /// where its slope is infinite.
     ///
     /// Oils with additives, greases, and (past yield) the fluids of magnetorheological dampers become
     /// thinner as the shear rate rises. The constructor accepts any a > 0. With a above 1 the fluid

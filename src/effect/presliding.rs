@@ -14,13 +14,13 @@ shaped! {
     /// Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly plastic).
     /// Each cycle wider than 2·r dissipates energy. The loop's area is `4·(X − r)` for a cycle of
     /// amplitude X > r, and 0 for a smaller cycle. The state starts at s = 0. With the opposite sign
-    /// this is the [`Backlash`](super::Backlash) with the same r, except for a factor of r.
+    /// this is [`Backlash`](super::Backlash) with the same r, except for a factor of r.
     ///
-    /// The second formula, `dahl(x; r)`, bends instead of slipping: `dz/dx = (1 − z·sgn dx)/r`, Dahl's
-    /// equation with exponent 1. If x is monotone between two samples, the step
-    /// `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle dissipates energy: the
-    /// loop's area is `4·(X − r·tanh(X/r))`, and z swings between ±tanh(X/r). The state starts at
-    /// `z = 0`.
+    /// The second formula, `dahl(x; r)`, bends gradually instead of slipping:
+    /// `dz/dx = (1 − z·sgn dx)/r`, Dahl's equation with exponent 1. If x is monotone between two
+    /// samples, the step `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle
+    /// dissipates energy: the loop's area is `4·(X − r·tanh(X/r))`, and z swings between
+    /// ±tanh(X/r). The state starts at `z = 0`.
     ///
     /// Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
     /// parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
@@ -71,7 +71,7 @@ shaped! {
     /// # Ok::<(), Error>(())
     /// ```
     PreslidingDahl {
-        /// Distance after which 63 % of the change is done \[channel unit\].
+        /// Distance after which the change reaches 63 % \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
 }
@@ -106,7 +106,7 @@ impl<T: Real> Regressor<T> for PreslidingDahl<T> {
     }
 }
 
-/// The memory at the first sample: neither spring has moved.
+/// The memory at the first sample: neither spring is deflected.
 fn fresh<T: Real>(x: T) -> [T; 4] {
     [x, T::zero(), T::zero(), T::zero()]
 }

@@ -7,7 +7,7 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// A step at the time `t_s`.
+    /// A step of the preload at the time `t_s`.
     ///
     /// Formula: `1` if `t ≥ t_s`, otherwise 0.
     ///

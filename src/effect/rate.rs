@@ -35,7 +35,7 @@ impl<T: Real> Regressor<T> for Rate {
 }
 
 plain! {
-    /// Rate dependence on the magnitude of the velocity.
+    /// Rate dependence through the magnitude of the velocity.
     ///
     /// Formula: `eta·|v|`; source: [`Rate`](super::Rate).
     RateSymmetric

@@ -9,7 +9,7 @@ use crate::Real;
 shaped! {
     /// A ripple with `k` periods per turn.
     ///
-    /// Formula: `sin(k·x + psi)`, with k from the teeth, the lobes or a gear ratio.
+    /// Formula: `sin(k·x + psi)`, where k follows from the teeth, the lobes or a gear ratio.
     ///
     /// Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
     /// gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.

@@ -1,4 +1,4 @@
-//! Saturation: one-sided, at the extremes.
+//! Saturation: one-sided, at either end of the range.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;

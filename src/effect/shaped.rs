@@ -1,4 +1,4 @@
-//! The types of effects. Shape parameters: named, checked by their range, one private field each.
+//! The effect types. Each shape parameter has a name, a range that is checked, and a private field.
 
 use super::info::ShapeInfo;
 use crate::Error;
@@ -13,7 +13,7 @@ pub(super) trait Shaped<T>: Sized {
     fn try_from_shapes(values: &[T]) -> Result<Self, Error>;
 }
 
-/// Values and shapes do not match in number.
+/// The number of values differs from the number of shape parameters.
 pub(super) const COUNT: Error =
     Error::Inadmissible("there must be one value for each shape of the effect");
 
@@ -35,7 +35,7 @@ macro_rules! shaped {
         }
 
         impl<T: $crate::Real> $config<T> {
-            /// Checks each shape parameter once.
+            /// Checks each shape parameter, once.
             ///
             /// # Errors
             /// [`NonFinite`](crate::Error::NonFinite) or

@@ -1,9 +1,9 @@
-//! Inputs of an effect at one sample, and its memory.
+//! The inputs of an effect at one sample, and its memory.
 
 use super::{Motion, Quantity};
 use crate::Real;
 
-/// Inputs of an effect at one sample.
+/// The inputs of an effect at one sample.
 ///
 /// ```
 /// use bowden::effect::{Effect, EffectState, Motion, Inputs};
@@ -35,7 +35,7 @@ pub struct Inputs<T> {
 }
 
 impl<T: Real> Inputs<T> {
-    /// One quantity by its name.
+    /// The value of one quantity.
     #[inline]
     #[must_use]
     pub fn get(&self, quantity: Quantity) -> T {
@@ -52,7 +52,7 @@ impl<T: Real> Inputs<T> {
         }
     }
 
-    /// Whether all of `quantities` are finite, and `dt` not negative if among them.
+    /// Whether all `quantities` are finite and, if `dt` is among them, `dt` is not negative.
     #[inline]
     #[must_use]
     pub fn is_usable(&self, quantities: &[Quantity]) -> bool {
@@ -87,7 +87,7 @@ impl<'de, T> serde::Deserialize<'de> for EffectState<T>
 where
     T: Real + serde::Deserialize<'de>,
 {
-    /// Refuses a memory that is not finite.
+    /// Rejects a memory that is not finite.
     fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         #[derive(serde::Deserialize)]
         struct Fields<T> {

@@ -9,7 +9,7 @@ use crate::Real;
 plain! {
     /// Stiffness: single-valued in the position.
     ///
-    /// Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`,
+    /// Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`, which is
     /// a second spring that engages at x_h.
     ///
     /// Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher

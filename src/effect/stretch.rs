@@ -9,9 +9,10 @@ use crate::Real;
 plain! {
     /// Stretch: the elasticity of a cable between its two ends.
     ///
-    /// Formulas: `s` and `s³` (hardening), where the channel `s` is the stretch: the difference between
-    /// the angles at the two ends, `phi_p − phi_d`. The caller computes the channel, with the signs and
-    /// the gear ratio of the rig. If the ends rotate in opposite directions, the stretch is their sum.
+    /// Formulas: `s` and `s³` (hardening), where the channel `s` is the stretch: the difference
+    /// between the angles at the two ends, `phi_p − phi_d`. The caller computes this channel, with
+    /// the signs and the gear ratio of the rig. If the ends rotate in opposite directions, the
+    /// stretch is the sum of the two angles.
     ///
     /// Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
     /// Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for the

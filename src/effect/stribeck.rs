@@ -1,4 +1,4 @@
-//! Stribeck friction: odd in the velocity, with a decrease from standstill.
+//! Stribeck friction: odd in the velocity, and decreasing from standstill.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -7,7 +7,7 @@ use super::{Dimension, EffectState, Family, Inputs, Quantity, Symmetry};
 use crate::Real;
 
 shaped! {
-    /// The excess of friction at low speed.
+    /// The excess friction at low speed.
     ///
     /// Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, with a = 2 for the usual bell curve and a = 1
     /// for the exponential. The friction at high speed is Coulomb friction.

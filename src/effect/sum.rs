@@ -1,5 +1,5 @@
-//! Sums over many samples. A plain sum in `f32` stops growing once its steps fall below half an
-//! ulp: after a few hours of work, or on a slow approach to a limit.
+//! Sums over many samples. A plain sum in `f32` stops growing once its increments fall below half
+//! an ulp: after a few hours of operation, or on a slow approach to a limit.
 
 use super::bounds::saturate;
 use crate::signal::two_sum;

@@ -1,4 +1,4 @@
-//! Temperature: proportional to the temperature. The channel must be a temperature.
+//! Temperature: an output proportional to the temperature. The channel must be a temperature.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -9,7 +9,7 @@ use crate::Real;
 shaped! {
     /// The difference between the temperature and `t_ref`.
     ///
-    /// Formula: `x − t_ref`.
+    /// Formula: `x − t_ref`, where the channel x must be a temperature.
     ///
     /// Source: L. Simoni, M. Beschi, G. Legnani, A. Visioli, "Friction modeling with
     /// temperature effects for industrial robot manipulators", *IROS*, 2015.

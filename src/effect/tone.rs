@@ -1,4 +1,4 @@
-//! A tone: a sine in time, independent of all measured signals.
+//! A tone: a sine in time, unrelated to the measured signals.
 
 use super::info::{Info, Regressor};
 use super::shaped::shaped;
@@ -8,7 +8,7 @@ use crate::Real;
 use core::f64::consts::TAU;
 
 shaped! {
-    /// A sine in time.
+    /// A sine in time, unrelated to the measured signals.
     ///
     /// Formula: `sin(2·pi·f·t + psi)`.
     ///
