@@ -1,6 +1,6 @@
 //! Error bounds and stability certificates for the controllers, with their assumptions.
 //!
-//! | certificate | law and time | bounds |
+//! | certificate | law and time | what is bounded |
 //! |---|---|---|
 //! | [`Theorem1`] | as published, continuous time | limsup of \|e\|, as in Nguyen et al. (2018) |
 //! | [`Tightest`] | as published, continuous time | limsup of \|e\|, with the best choice of the free constants |
@@ -11,28 +11,30 @@
 //! | [`RmsSampled`] | first order, sampled, bounded estimates | root mean square of e |
 //! | [`PerStep`] | first order, sampled, bounded estimates | V from step to step |
 //!
-//! Two further types certify a PI for every plant of a range:
+//! Two further types certify a PI controller for every plant in a range:
 //! - [`ObserverStability`] certifies that a PI with a
 //!   [`DisturbanceObserver`](bowden::control::DisturbanceObserver) is stable.
 //! - [`IterativeLearningConvergence`] certifies that a PI with
 //!   [`IterativeLearning`](bowden::control::IterativeLearning) converges.
 //!
-//! Each certificate in the table is made from an [`Adaptive`](bowden::control::Adaptive) law and a
-//! [`Plant`], the known ranges of the plant. The constructors check what these two types can check.
-//! [`Certificate::assumptions`] lists the assumptions that the user must check. The documentation
-//! of each type states them in full.
+//! Each certificate in the table is constructed from an [`Adaptive`](bowden::control::Adaptive) law
+//! and a [`Plant`], which holds the known ranges of the plant. The constructors of the certificates
+//! check what can be checked from these two. [`Certificate::assumptions`] lists the assumptions
+//! that the user must check. The documentation of each type states them in full.
 //!
-//! **The bound of Theorem 1 is correct but vacuous.** With Table 2, alpha = 0.5 and Delta = 7 N·m
-//! the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates are useful.
+//! **The bound of Theorem 1 is correct but vacuous.** With the gains of Table 2, alpha = 0.5 and
+//! Delta = 7 N·m, the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates
+//! are useful.
 //!
 //! # Corrections to the paper
 //! - (35)-(38) hold only as limits superior, or for all time if V starts below phi/theta.
 //!   `|e| <= sqrt(1 + lambda²)·delta`, which is less than `(1 + lambda)·delta`.
 //! - Delta = 7 N·m is kappa_eta, not the bound on `D_h = kappa_eta·eta + d + T0`. With
-//!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`, 7.056 N·m for the first set without d.
+//!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`: 7.056 N·m for the first parameter set
+//!   without d.
 //! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; for the clamped sign it is 1/4.
 //! - Remark 1 (less leakage, less error) is false for delta, which grows without bound as the
-//!   leakage goes to zero. The remark is true for the RMS certificate.
+//!   leakage tends to zero. The remark is true for the RMS certificate.
 //! - The "control laws (26), (30)" in the text are (19) and (23).
 
 #![no_std]

@@ -2,8 +2,8 @@
 //!
 //! The names are the paper's; `u_bar` is the virtual command, `h` the time since the last sample
 //! \[s\]. A step evaluates (13) and (18), then (23) and (19) with the estimates of the last sample,
-//! then (17) and (24)-(26). These functions check and limit nothing: the step rejects bad samples,
-//! clamps z, the estimates and the command, and sums increments with compensation.
+//! then (17) and (24)-(26). These functions neither check nor limit anything: the step rejects bad
+//! samples, clamps z, the estimates and the command, and uses compensated sums for the increments.
 
 use crate::signal::clamp;
 use crate::Real;
@@ -32,13 +32,13 @@ pub fn command<T: Real>(beta_hat: T, u_bar: T) -> T {
     beta_hat * u_bar
 }
 
-/// (19) in the first-order form, `u' = lambda·way` with `way = beta_hat·u_bar - u`: increment of u.
+/// (19) in the first-order form: increment of u, `u' = lambda·way` with `way = beta_hat·u_bar - u`.
 #[inline]
 pub fn first_order_increment<T: Real>(h: T, lambda: T, way: T) -> T {
     h * lambda * way
 }
 
-/// (20): `alpha·u = u_bar - alpha·beta_error·u_bar`, `beta_error = 1/alpha - beta_hat`.
+/// (20): `alpha·u = u_bar - alpha·beta_error·u_bar` with `beta_error = 1/alpha - beta_hat`.
 #[inline]
 pub fn plant_command<T: Real>(alpha: T, beta_error: T, u_bar: T) -> T {
     u_bar - alpha * beta_error * u_bar
@@ -68,7 +68,7 @@ pub fn damped<T: Real>(proportional: T, z: T, e_rate: T, lambda: T) -> T {
     proportional - (e_rate + z) / lambda
 }
 
-/// The same in the first-order form, with `-y_r'` for e'.
+/// (23), with the second part, in the first-order form, where `-y_r'` replaces e'.
 #[inline]
 pub fn first_order_damped<T: Real>(proportional: T, z: T, y_r_rate: T, lambda: T) -> T {
     proportional + (y_r_rate - z) / lambda
@@ -101,19 +101,19 @@ pub fn theta_excitation<T: Real>(lambda_s: T, x: T) -> T {
 /// (24)-(26) with the sigma-modification: increment of an estimate,
 /// `h·(gamma·v - sigma·distance)/(1 + h·sigma)`, at a `distance` from its prior.
 ///
-/// Implicit, so the leakage cannot overshoot. The prior is zero in the paper.
+/// The step is implicit, so the leakage cannot overshoot. The prior is zero in the paper.
 #[inline]
 pub fn estimate_increment<T: Real>(h: T, gamma: T, v: T, sigma: T, distance: T) -> T {
     h * (gamma * v - sigma * distance) / (T::one() + h * sigma)
 }
 
-/// Smooth sign `T(x)` of (23) and (25), `x = s/epsilon`: `tanh(x)`, within `[-1, 1]`.
+/// Smooth sign `T(x)` of (23) and (25) with `x = s/epsilon`: `tanh(x)`, clamped to `[-1, 1]`.
 #[inline(always)]
 pub fn smooth_sign<T: Real>(x: T) -> T {
     x.confined_tanh()
 }
 
-/// Smooth sign without `tanh`: `x` within `[-1, 1]`.
+/// Smooth sign without `tanh`: `x`, clamped to `[-1, 1]`.
 #[inline(always)]
 pub fn clamped_sign<T: Real>(x: T) -> T {
     clamp(x, -T::one(), T::one())

@@ -1,10 +1,11 @@
 //! The state equation of the hysteresis, (2) and (7) of Nguyen et al. (2018).
 //!
 //! The names are the paper's; `x` is the input, a displacement in (2) and a torque in (7). With
-//! `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the path `p = rho·|dx|`, the equation reads
-//! `dzeta/dp = f(zeta)`, which does not contain time. [`eta_rate`] is the printed equation, [`f`]
-//! the same along the path: `eta' = d·rho·|x'|·f(d·eta)` (test `tests/hysteresis/law.rs`). The steps
-//! of [`BoucWen`](super::BoucWen) integrate `f` through `loading` and `unloading`.
+//! `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the path p, `dp = rho·|dx|`, the equation
+//! is `dzeta/dp = f(zeta)`, which does not contain time. [`eta_rate`] is the equation as published;
+//! [`f`] is the same equation along the path: `eta' = d·rho·|x'|·f(d·eta)` (tested in
+//! `tests/hysteresis/law.rs`). The steps of [`BoucWen`](super::BoucWen) integrate `f` through
+//! `loading` and `unloading`.
 
 use super::number::Number;
 use crate::Real;
@@ -13,7 +14,7 @@ use crate::Real;
 ///
 /// ```
 /// use bowden::hysteresis::law::eta_rate;
-/// // From rest, eta rises with the slope rho; after a reversal at eta = 1, with 2·sigma·rho.
+/// // From eta = 0, the slope is rho; after a reversal at eta = 1, it is 2·sigma·rho.
 /// assert_eq!(eta_rate(0.1, 3.0, 2.0, 1.0, 0.0), 0.1);
 /// assert!((eta_rate(0.1_f64, 3.0, 2.0, -1.0, 1.0) + 0.6).abs() < 1e-12);
 /// ```
@@ -24,7 +25,7 @@ pub fn eta_rate<T: Real>(rho: T, sigma: T, n: T, x_rate: T, eta: T) -> T {
     rho * (x_rate - damping + (sigma - T::one()) * x_rate * power * eta.abs())
 }
 
-/// (2), (7) along the path: `f(zeta)` from `power`, which is `|zeta|^n`.
+/// (2), (7) along the path: `f(zeta)`, where `power` is `|zeta|^n`.
 #[inline]
 pub fn f<T: Real>(zeta: T, c: T, power: T) -> T {
     if zeta < T::zero() {
