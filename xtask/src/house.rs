@@ -1,4 +1,4 @@
-//! The counts of the repository, each with its goal.
+//! Size metrics of the repository, each with its goal.
 
 use crate::source;
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// One count.
+/// One metric.
 #[derive(Debug, PartialEq)]
 pub struct Count {
     what: String,
@@ -22,14 +22,14 @@ impl Count {
     }
 }
 
-/// What is counted in the files of a folder.
+/// Counts over the files of a folder.
 #[derive(Debug, Default, Clone, Copy)]
 struct Code {
     lines: usize,
     constants: usize,
 }
 
-/// Every count of the repository in this folder.
+/// Every metric of the repository in this folder.
 pub fn counts(root: &Path) -> io::Result<Vec<Count>> {
     let core = code(&root.join("src"))?;
     let bound = code(&root.join("bound/src"))?;
@@ -82,7 +82,7 @@ pub fn table(counts: &[Count]) -> String {
     text
 }
 
-/// The folders of the lab with their code: each crate, and each module of `lab/identify`.
+/// The code folders of the lab: each crate, and each module of `lab/identify`.
 fn rooms(root: &Path) -> io::Result<BTreeMap<String, Code>> {
     let mut rooms = BTreeMap::new();
     for krate in folders(&root.join("lab"))? {
@@ -92,7 +92,7 @@ fn rooms(root: &Path) -> io::Result<BTreeMap<String, Code>> {
         }
         rooms.insert(relative(root, &krate), code(&src)?);
         if krate.ends_with("identify") {
-            // The modules take from their crate, so that nothing counts twice.
+            // The modules are subtracted from their crate, so that nothing is counted twice.
             let mut rest = code(&src)?;
             for module in folders(&src)? {
                 let found = code(&module)?;
@@ -137,7 +137,7 @@ fn code(folder: &Path) -> io::Result<Code> {
     Ok(found)
 }
 
-/// Number of constants whose type and value are numeric, as `lab/identify/tests/house.rs` counts.
+/// Number of constants with a numeric type and value, counted as in `lab/identify/tests/house.rs`.
 fn numeric_constants(code: &str) -> usize {
     const NUMBERS: [&str; 9] = [
         "f64", "f32", "usize", "u64", "u32", "i64", "i32", "u8", "Duration",
@@ -184,7 +184,7 @@ fn lines(file: &Path) -> io::Result<usize> {
     Ok(fs::read_to_string(file)?.lines().count())
 }
 
-/// The folders in a folder, in order of their names.
+/// The subfolders of a folder, sorted by name.
 fn folders(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -197,7 +197,7 @@ fn folders(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Every Rust file below a folder, without what cargo builds and what is hidden.
+/// Every Rust file below a folder, except in hidden folders and the build output of cargo.
 fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let (mut found, mut left) = (Vec::new(), vec![folder.to_owned()]);
     while let Some(folder) = left.pop() {

@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints a text; a reader that has gone, such as `head`, is no error.
+/// Prints a text; a closed pipe, for example after `head`, is not an error.
 fn print(text: &str) -> ExitCode {
     let _ = std::io::stdout().write_all(text.as_bytes());
     ExitCode::SUCCESS

@@ -3,9 +3,9 @@
 /// The code of a file.
 #[derive(Debug, Default, PartialEq)]
 pub struct Source {
-    /// Lines that contain code, in order, without their comments and the text of their strings.
+    /// Lines that contain code, in order, without comments and without the contents of strings.
     pub code: Vec<String>,
-    /// Modules in files of their own that exist for unit tests only.
+    /// Modules in separate files that exist for unit tests only.
     pub test_modules: Vec<String>,
 }
 
@@ -26,7 +26,7 @@ pub fn read(text: &str) -> Source {
     source
 }
 
-/// Whether a line is the attribute of an item that only the unit tests have.
+/// Whether a line is the attribute of an item that is compiled for unit tests only.
 fn is_test_only(line: &str) -> bool {
     line.starts_with("#[cfg(test)]") || line.starts_with("#[cfg(all(test,")
 }
@@ -53,7 +53,7 @@ fn end_of_item(lines: &[String], at: usize, test_modules: &mut Vec<String>) -> u
     lines.len()
 }
 
-/// The text with spaces for the comments and for what strings contain.
+/// The text with comments replaced by spaces and the contents of strings by underscores.
 fn plain(text: &str) -> String {
     let chars: Vec<char> = text.chars().collect();
     let mut out = String::with_capacity(text.len());
@@ -77,7 +77,7 @@ fn plain(text: &str) -> String {
             continue;
         }
         let taken = &rest[..skipped.min(rest.len())];
-        // A string is code, a comment is none.
+        // A string is code, a comment is not.
         let mark = if c == '/' { ' ' } else { '_' };
         out.extend(taken.iter().map(|c| if *c == '\n' { '\n' } else { mark }));
         at += taken.len();
@@ -89,7 +89,7 @@ fn follows_a_word(out: &str) -> bool {
     out.ends_with(|c: char| c.is_alphanumeric() || c == '_')
 }
 
-/// The length of a block comment; they nest.
+/// The length of a block comment; block comments nest.
 fn block_comment(rest: &[char]) -> usize {
     let (mut depth, mut at) = (0, 0);
     while at < rest.len() {
@@ -118,7 +118,7 @@ fn string(rest: &[char]) -> usize {
     at
 }
 
-/// The length of a raw string; zero if this is none.
+/// The length of a raw string; zero if the text does not begin with one.
 fn raw_string(rest: &[char]) -> usize {
     let hashes = rest[1..].iter().take_while(|c| **c == '#').count();
     if rest.get(1 + hashes) != Some(&'"') {

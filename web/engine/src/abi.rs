@@ -1,18 +1,18 @@
-//! The border to JavaScript: six functions, three from the host and three for it.
+//! The interface to JavaScript: three functions imported from the host, and three exported to it.
 //!
-//! The page calls `room` for a place of so many bytes, writes a request there, and calls `ask`. The
+//! The page calls `room` to reserve a number of bytes, writes a request there, and calls `ask`. The
 //! answer is at `answer_at` until the next `ask`. A worker is one thread and never calls back from
-//! within `ask`, so that the state is never borrowed twice; if it were, `ask` would do nothing.
+//! within `ask`, so the state is never borrowed twice; if it were, `ask` would do nothing.
 
 use crate::Engine;
 use std::cell::RefCell;
 
 #[link(wasm_import_module = "host")]
 extern "C" {
-    /// One message of progress, as UTF-8: the share that is done, if the message is a step, a tab,
-    /// and the message.
+    /// One progress message, as UTF-8: the completed fraction (empty if the message is not a step),
+    /// a tab, and the message.
     fn tell(at: *const u8, length: usize);
-    /// The message of a fault in this program, as UTF-8.
+    /// The message of a panic in this program, as UTF-8.
     fn fault(at: *const u8, length: usize);
     /// Seconds on the host's clock.
     fn now() -> f64;
@@ -29,7 +29,7 @@ thread_local! {
     static STATE: RefCell<State> = RefCell::default();
 }
 
-/// A place of so many bytes for the next request.
+/// Reserves this many bytes for the next request.
 #[no_mangle]
 pub extern "C" fn room(length: usize) -> *mut u8 {
     STATE.with(|state| match state.try_borrow_mut() {
@@ -45,7 +45,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 #[no_mangle]
 pub extern "C" fn ask() -> usize {
     std::panic::set_hook(Box::new(|info| send(fault, &info.to_string())));
-    // SAFETY: the host's function has no arguments and touches no memory of this program.
+    // SAFETY: the host's function has no arguments and accesses no memory of this program.
     bowden_lab::facts::set_clock(|| unsafe { now() });
     STATE.with(|state| match state.try_borrow_mut() {
         Ok(mut state) => {
@@ -58,7 +58,7 @@ pub extern "C" fn ask() -> usize {
     })
 }
 
-/// Where the answer is.
+/// The address of the answer.
 #[no_mangle]
 pub extern "C" fn answer_at() -> *const u8 {
     STATE.with(|state| match state.try_borrow() {
@@ -73,6 +73,6 @@ fn progress(what: &str) {
 }
 
 fn send(to: unsafe extern "C" fn(*const u8, usize), text: &str) {
-    // SAFETY: the host reads that many bytes of a text that lives until the call returns.
+    // SAFETY: the host reads `length` bytes of a text that lives until the call returns.
     unsafe { to(text.as_ptr(), text.len()) }
 }

@@ -1,17 +1,17 @@
-//! An answer: JSON, and the files that belong to it.
+//! An answer: JSON and its files.
 
 use serde::Serialize;
 
-/// What a page receives.
+/// The answer that a page receives.
 #[derive(Debug, Default)]
 pub struct Answer {
     json: serde_json::Map<String, serde_json::Value>,
-    /// Files by name.
+    /// The files, by name.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Answer {
-    /// An answer that is one line of refusal.
+    /// An answer that consists of an error message of one line.
     #[must_use]
     pub fn refusal(line: &str) -> Self {
         let mut answer = Self::default();
@@ -19,7 +19,7 @@ impl Answer {
         answer
     }
 
-    /// Adds a field; one that JSON has no form for is left out.
+    /// Adds a field; a value that JSON cannot represent is left out.
     pub fn put(&mut self, name: &str, value: impl Serialize) {
         if let Ok(value) = serde_json::to_value(value) {
             self.json.insert(name.to_owned(), value);
@@ -40,7 +40,7 @@ impl Answer {
             .map(|(_, bytes)| &bytes[..])
     }
 
-    /// The answer in bytes: a line of JSON, whose `files` lists names and lengths, then the files.
+    /// The answer as bytes: a line of JSON, whose `files` lists names and lengths, then the files.
     #[must_use]
     pub fn bytes(mut self) -> Vec<u8> {
         let files = std::mem::take(&mut self.files);

@@ -4,7 +4,7 @@ use crate::options::Choices;
 use crate::{File, EXAMPLE};
 use bowden_cli::quoted;
 
-/// `bowden identify` with the files and the choices.
+/// `bowden identify` with the files and the options.
 pub(crate) fn identify(files: &[&File], choices: &Choices) -> String {
     let mut words = vec!["bowden".to_owned(), "identify".to_owned()];
     words.extend(records(files));
@@ -23,7 +23,7 @@ pub(crate) fn identify(files: &[&File], choices: &Choices) -> String {
     line(&words)
 }
 
-/// `bowden validate` with the model, the file and the choices.
+/// `bowden validate` with the model, the file and the options.
 pub(crate) fn validate(model: &str, file: &File, choices: &Choices) -> String {
     let mut words = vec!["bowden".to_owned(), "validate".to_owned(), model.to_owned()];
     words.extend(records(&[file]));
@@ -37,7 +37,7 @@ fn line(words: &[String]) -> String {
     quoted.join(" ")
 }
 
-/// The program has the built-in record without a file.
+/// The files on the command line; the program needs none for the built-in record.
 fn records(files: &[&File]) -> Vec<String> {
     let own = files.iter().filter(|file| file.name != EXAMPLE);
     own.map(|file| file.name.clone()).collect()

@@ -1,4 +1,4 @@
-//! The model of one or several files, with everything that the program writes.
+//! The model of one or several files, with everything that the program prints and writes.
 
 use crate::options::Choices;
 use crate::{command, Answer, File};
@@ -23,7 +23,7 @@ pub(crate) fn identify(
         asked,
         own_gains: false,
         invertible: choices.invertible,
-        // Those of the page: a result without an exported model is one, too.
+        // The page writes the model files itself; a result may have no exported model.
         models: false,
         trace: true,
         figures: true,
@@ -94,7 +94,7 @@ fn write(answer: &mut Answer, closed: &Closed, choices: &Choices) -> Result<(), 
     Ok(())
 }
 
-/// The model in its three forms, with its test vector. A form that has no room for a part of the
+/// The model in its three forms, with its test vector. A form that cannot represent a part of the
 /// model is left out.
 fn model_files(model: &Handed, file: &mut impl FnMut(&str, Vec<u8>)) -> Result<(), String> {
     let toml = model.file(Form::Toml)?;
@@ -112,12 +112,12 @@ fn model_files(model: &Handed, file: &mut impl FnMut(&str, Vec<u8>)) -> Result<(
     Ok(())
 }
 
-/// A text for a terminal without its colours.
+/// A terminal text without its colours.
 pub(crate) fn plain(text: &str) -> String {
     anstream::adapter::strip_str(text).to_string()
 }
 
-/// The paragraph below the title of the program's output, one sentence a line.
+/// The paragraph below the title of the program's output, one sentence per line.
 pub(crate) fn headline(text: &str) -> Vec<String> {
     let paragraph = text.split("\n\n").nth(1).unwrap_or_default();
     paragraph

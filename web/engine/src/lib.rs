@@ -1,11 +1,12 @@
 //! The lab in a browser tab: bytes in, the program's answers out.
 //!
-//! A request is one line of JSON, which bytes of a file may follow; so is an answer, which its files
-//! follow. An [`Engine`] keeps the files that were added and answers [one request](Engine::answer)
-//! after another. It computes nothing itself: every answer is one of [`bowden_lab::facts`], in the
-//! views of the program `bowden`, so that the tab and the terminal show the same numbers.
+//! A request is one line of JSON, optionally followed by the bytes of a file. An answer is one line
+//! of JSON, followed by its files. An [`Engine`] keeps the files that were added and answers
+//! [one request](Engine::answer) after another. It computes nothing itself: every answer comes from
+//! [`bowden_lab::facts`], in the views of the program `bowden`, so the tab and the terminal show
+//! the same numbers.
 //!
-//! In WebAssembly, `abi` carries these bytes over the border: the only unsafe code.
+//! In WebAssembly, `abi` passes these bytes to and from JavaScript; it is the only unsafe code.
 
 #[cfg(target_family = "wasm")]
 mod abi;
@@ -38,15 +39,15 @@ pub struct Engine {
     files: Vec<File>,
 }
 
-/// What a page asks.
+/// A request of the page.
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
 enum Request {
-    /// Keeps the file whose bytes follow; a file of that name is replaced.
+    /// Keeps the file whose bytes follow; it replaces a file of the same name.
     Add { name: String },
     /// Keeps the built-in record.
     Example,
-    /// The columns of a file, and what the reader says of it.
+    /// The columns of a file, and the reader's messages about the file.
     Look {
         file: String,
         #[serde(default)]
@@ -58,12 +59,12 @@ enum Request {
         #[serde(default)]
         choices: Choices,
     },
-    /// The hysteresis state over an input, the bytes that follow.
+    /// The hysteresis state along an input, whose bytes follow.
     Shape {
-        /// rho, sigma, n and the first state.
+        /// rho, sigma, n and the initial state.
         parameters: [f64; 4],
     },
-    /// Whether a model, the bytes that follow, holds on a file.
+    /// Whether a model, whose bytes follow, is valid for a file.
     Validate {
         model: String,
         file: String,
@@ -73,8 +74,8 @@ enum Request {
 }
 
 impl Engine {
-    /// Answers a request: a line of JSON and the bytes that follow it. `tell` receives one message a
-    /// step.
+    /// Answers a request: a line of JSON and the bytes that follow it. `tell` receives one message
+    /// per step.
     #[must_use]
     pub fn answer(&mut self, request: &[u8], tell: &dyn Fn(&str)) -> Answer {
         match self.answered(request, tell) {

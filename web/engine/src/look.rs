@@ -1,13 +1,13 @@
-//! The columns of a file as a page shows them, and what the reader says of the file.
+//! The columns of a file as the page shows them, and the reader's messages about the file.
 
 use crate::options::Choices;
 use crate::{Answer, File};
 use bowden_lab::facts::{excerpt, outline, ColumnPart, Outlined, RecordError, TextLine};
 use serde::Serialize;
 
-/// Intervals of rows of which a preview shows the least and the largest value.
+/// Number of row intervals in a preview, which shows the least and the largest value of each.
 const INTERVALS: usize = 240;
-/// Lines of the table that are shown on each side of a refused one.
+/// Lines of the table that are shown before and after a rejected line.
 const AROUND: usize = 2;
 
 #[derive(Serialize)]
@@ -17,10 +17,10 @@ struct Column<'a> {
     /// `time`, `input`, `output`, `channel`, or nothing.
     part: Option<&'static str>,
     channel: Option<&'a str>,
-    /// How many cells are numbers.
+    /// Number of cells that are numbers.
     numbers: usize,
     rows: usize,
-    /// Least and largest value of each interval; `null` where it has no number.
+    /// Least and largest value of each interval; `null` if the interval has no number.
     preview: Vec<Option<[f64; 2]>>,
 }
 
@@ -38,7 +38,7 @@ struct Excerpt {
     cells: Vec<String>,
 }
 
-/// Never refused: a file that is no record has its refusal in the answer.
+/// If the file is not a record, the answer contains the error message; the request does not fail.
 pub(crate) fn look(file: &File, choices: &Choices) -> Result<Answer, String> {
     let asked = choices.asked()?;
     let mut answer = Answer::default();

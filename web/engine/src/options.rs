@@ -1,9 +1,9 @@
-//! What the user chose: the options of the program, by their names.
+//! The user's options: those of the program, under the same names.
 
 use bowden_lab::facts::{Asked, Mode, Options};
 use serde::Deserialize;
 
-/// The options of `bowden identify`; an absent one has its default.
+/// The options of `bowden identify`; an absent option has its default.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Choices {
@@ -27,11 +27,11 @@ pub struct Choices {
     pub rate: Option<f64>,
     /// Line of the column names.
     pub header_line: Option<usize>,
-    /// The segment that is read.
+    /// The segment to read.
     pub segment: Option<usize>,
-    /// Column names of a text without a header.
+    /// Column names of a text file without a header.
     pub names: Vec<String>,
-    /// Whether bad rows are dropped.
+    /// Whether to drop bad rows.
     pub drop_bad: bool,
     /// The baseline model.
     pub baseline: Vec<String>,
@@ -39,15 +39,15 @@ pub struct Choices {
     pub max_terms: Option<usize>,
     /// Time limit of the search \[s\].
     pub time_limit: Option<f64>,
-    /// Whether the exported model can be inverted.
+    /// Whether the exported model must be invertible.
     pub invertible: bool,
 }
 
 impl Choices {
-    /// How a record is read.
+    /// The options of the reader.
     ///
     /// # Errors
-    /// One line if the mode has another name.
+    /// One line if the mode is unknown.
     pub fn options(&self) -> Result<Options, String> {
         let mode = match self.mode.as_deref() {
             None => None,
@@ -71,7 +71,7 @@ impl Choices {
         })
     }
 
-    /// The question that all answers share.
+    /// The options of the reader and of the search, common to all answers.
     ///
     /// # Errors
     /// One line if an option is out of range.

@@ -1,7 +1,7 @@
-//! The hysteresis state over a record with parameters that a user drags.
+//! The hysteresis state along a record, with parameters that a user drags.
 //!
-//! The input is that of a trace, a few samples in the shortest period: between two of them it follows
-//! a cubic, so that its turning points are where they were.
+//! The input comes from a trace, which has a few samples per shortest period. Between two samples
+//! the input follows a cubic, so that its turning points stay where they were.
 
 use crate::Answer;
 use bowden::hysteresis::BoucWen;
@@ -9,8 +9,8 @@ use bowden::hysteresis::BoucWen;
 /// Steps between two samples.
 const STEPS: u32 = 8;
 
-/// `bytes` are the input as 64-bit floats, low byte first; the file `eta` of the answer is the state
-/// at each of these samples, likewise.
+/// `bytes` are the input as little-endian 64-bit floats. The file `eta` of the answer is the state
+/// at each of these samples, in the same format.
 pub(crate) fn shape([rho, sigma, n, eta0]: [f64; 4], bytes: &[u8]) -> Result<Answer, String> {
     let shape = BoucWen::<f64>::try_new(rho, sigma, n).map_err(|e| e.to_string())?;
     let input: Vec<f64> = bytes
@@ -44,7 +44,7 @@ fn states(shape: &BoucWen<f64>, eta0: f64, input: &[f64]) -> Vec<f64> {
     all
 }
 
-/// Between the second and the third of four values, the cubic with the slopes of their neighbours.
+/// The cubic between the second and the third of four values, with slopes from their neighbours.
 fn cubic([a, b, c, d]: [f64; 4], s: f64) -> f64 {
     let (before, after) = (0.5 * (c - a), 0.5 * (d - b));
     let (square, cube) = (s * s, s * s * s);
@@ -72,7 +72,7 @@ mod tests {
             states(&shape, 0.0, &wave(1200)),
         );
         for (k, eta) in few.iter().enumerate() {
-            // The cubic has 1 % of the amplitude at the crests of a sine of twelve samples.
+            // The error of the cubic is 1 % of the amplitude at the crests of a twelve-sample sine.
             assert!(
                 (eta - many[100 * k]).abs() < 0.05,
                 "{k}: {eta} {}",

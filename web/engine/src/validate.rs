@@ -1,4 +1,4 @@
-//! Whether a model holds on another file.
+//! Whether a model is valid for another file.
 
 use crate::identify::{headline, plain};
 use crate::options::Choices;

@@ -1,7 +1,7 @@
-//! Chromium without a window, over the DevTools protocol on two pipes.
+//! Headless Chromium, driven through the DevTools protocol over two pipes.
 //!
-//! Messages are JSON, each ended by a zero byte. A shell puts the pipes where Chromium looks for
-//! them, descriptors 3 and 4.
+//! Each message is JSON, terminated by a zero byte. A shell connects the pipes to the descriptors
+//! that Chromium uses, 3 and 4.
 
 use crate::{failed, Ended};
 use serde_json::{json, Value};
@@ -11,7 +11,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-/// Longest time that a page may take for an answer.
+/// Maximum time that a page may take to answer.
 const PATIENCE: Duration = Duration::from_secs(240);
 
 /// A browser with one page.
@@ -22,13 +22,13 @@ pub struct Browser {
     session: String,
     next: u64,
     profile: PathBuf,
-    /// What the browser was told in between: requests, and what a console shows in red.
+    /// URLs that the page has requested.
     pub requests: Vec<String>,
-    /// Errors of the console, and exceptions.
+    /// Console errors and exceptions.
     pub errors: Vec<String>,
 }
 
-/// Names of the program, the usual ones first.
+/// Names of the browser program, the most common first.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 impl Browser {
@@ -109,7 +109,7 @@ impl Browser {
         for domain in ["Page", "Runtime", "Network", "Log", "DOM"] {
             self.call(&format!("{domain}.enable"), json!({}))?;
         }
-        // Requests and errors of the worker, too.
+        // Also report the requests and errors of the worker.
         let options = json!({"autoAttach": true, "waitForDebuggerOnStart": false, "flatten": true});
         self.call("Target.setAutoAttach", options)?;
         Ok(())
@@ -214,7 +214,7 @@ impl Browser {
         self.until("window.bowden !== undefined")
     }
 
-    /// Gives files to a file field.
+    /// Sets the files of a file input.
     pub fn choose(&mut self, field: &str, files: &[PathBuf]) -> Result<(), Ended> {
         let document = self.call("DOM.getDocument", json!({}))?;
         let options = json!({"nodeId": document["root"]["nodeId"], "selector": field});

@@ -1,4 +1,4 @@
-//! From sources to a folder of static files, and to one file that needs no server.
+//! Builds a folder of static files, and one file that needs no server, from the sources.
 
 use crate::{failed, root, Done, Ended};
 use flate2::write::GzEncoder;
@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
-/// Stack of the program in a tab \[bytes\]; the linker's default is 1 MiB.
+/// Stack size of the program in a tab \[bytes\]; the linker's default is 1 MiB.
 const STACK: u32 = 4 << 20;
-/// Largest size of the page \[bytes\], compressed.
+/// Maximum compressed size of the page \[bytes\].
 const LARGEST: usize = 2_000_000;
 
-/// The modules of the page, in an order in which each uses only those before it.
+/// The modules of the page, ordered so that each uses only modules before it.
 const MODULES: [&str; 6] = [
     "dom.js",
     "plot.js",
@@ -60,7 +60,7 @@ pub fn build(out: &Path) -> Done {
     Ok(())
 }
 
-/// Compiles the program; returns where it is.
+/// Compiles the program; returns its path.
 fn program() -> Result<PathBuf, Ended> {
     require_target()?;
     let flags = format!("-C target-feature=+simd128 -C link-arg=-zstack-size={STACK}");
@@ -89,7 +89,7 @@ fn program() -> Result<PathBuf, Ended> {
         .ok_or_else(|| failed("no program was built"))
 }
 
-/// The compiler's libraries for the target; rustup adds them where it can.
+/// Requires the compiler's libraries for the target; rustup installs them if possible.
 fn require_target() -> Done {
     let libraries = Command::new("rustc")
         .args(["--print", "target-libdir", "--target", TARGET])
@@ -115,8 +115,8 @@ fn compressed(bytes: &[u8]) -> Result<Vec<u8>, Ended> {
     Ok(encoder.finish()?)
 }
 
-/// The page as one file: a browser refuses modules and workers from a disk, unless they are within the
-/// page.
+/// The page as one file: a browser refuses to load modules and workers from a disk, unless the page
+/// contains them.
 fn single(page: &Path, program: &[u8]) -> Result<String, Ended> {
     let read = |name: &str| std::fs::read_to_string(page.join(name));
     let mut script = String::new();
@@ -135,7 +135,7 @@ fn single(page: &Path, program: &[u8]) -> Result<String, Ended> {
         .and_then(|(_, rest)| rest.split_once('"'))
         .map(|(policy, _)| format!("default-src{policy}"))
         .ok_or_else(|| failed("index.html has no security policy"))?;
-    // What is within the page needs no connection at all.
+    // The single file contains everything, so it needs no connection.
     let stricter = policy
         .replace("script-src 'self'", "script-src 'unsafe-inline'")
         .replace("connect-src 'self'; ", "");

@@ -1,14 +1,15 @@
-//! The page in Chromium: its answers are the program's, and nothing leaves the tab.
+//! Tests the page in Chromium: its answers equal the program's, and no data leave the tab.
 
 use crate::browser::Browser;
 use crate::native::Native;
 use crate::{build, failed, pages, root, serve, Done, Ended};
 use serde_json::{json, Value};
 
-/// Largest difference of two numbers of one answer, as a share of the larger one. Elementary functions
-/// differ in the last bit between a browser and a C library, and a fit ends where its steps are small.
+/// Maximum difference between two numbers of an answer, relative to the larger one. Elementary
+/// functions differ in the last bit between a browser and a C library, and a fit ends where its
+/// steps are small.
 const SAME: f64 = 1e-6;
-/// Widths of a telephone and of a desk \[CSS pixels\].
+/// Widths of a phone and of a desktop screen \[CSS pixels\].
 const WIDTHS: [u32; 2] = [390, 1280];
 
 /// Runs every check.
@@ -66,7 +67,7 @@ pub fn check() -> Done {
     stays_alone(&mut page, "file://")
 }
 
-/// The answer of the page is the program's.
+/// Checks that the page gives the program's answer.
 fn identified(page: &mut Browser, native: &Native, what: &str) -> Done {
     let seconds = pages::identify(page)?;
     let command = pages::command(page)?;
@@ -99,7 +100,8 @@ fn words(html: &str) -> String {
     html.chars().filter(|c| !is_number(*c)).collect()
 }
 
-/// Names and words are equal; numbers differ at most by [`SAME`]. The cost is that of a machine.
+/// Checks that names and words are equal, and that numbers differ by at most [`SAME`]. The cost is
+/// not compared, because it depends on the machine.
 fn same(own: &Value, other: &Value, at: &str, worst: &mut f64) -> Done {
     let differ = || {
         Err(failed(format!(
@@ -134,7 +136,8 @@ fn same(own: &Value, other: &Value, at: &str, worst: &mut f64) -> Done {
     }
 }
 
-/// A second record on the model of the first: the answer is the program's.
+/// Checks that a second record, validated against the model of the first, gets the program's
+/// answer.
 fn validates(page: &mut Browser, native: &Native) -> Done {
     let model = pages::file(page, "model.toml")?;
     native.write("model.toml", model.as_bytes())?;
@@ -151,7 +154,7 @@ fn validates(page: &mut Browser, native: &Native) -> Done {
     Ok(())
 }
 
-/// Without a part the error rises; with it again the error is what it was.
+/// Checks that the error rises without a part, and returns to its value with the part.
 fn takes_apart(page: &mut Browser) -> Done {
     let error = "Number(/held-out ([0-9.]+)/.exec(document.querySelector('.error').innerText)[1])";
     let click = "document.querySelectorAll('.explore input[type=checkbox]')";
@@ -173,7 +176,7 @@ fn takes_apart(page: &mut Browser) -> Done {
     Ok(())
 }
 
-/// No width needs scrolling to the side.
+/// Checks that no width needs horizontal scrolling.
 fn fits_each_width(page: &mut Browser) -> Done {
     for width in WIDTHS {
         page.resize(width, 900)?;
@@ -188,7 +191,7 @@ fn fits_each_width(page: &mut Browser) -> Done {
     page.resize(1280, 900)
 }
 
-/// What names do not tell, the page asks.
+/// Checks that the page asks for the columns that their names do not identify.
 fn asks_for_columns(page: &mut Browser) -> Done {
     let note = page.value("document.getElementById('columns-note').innerText")?;
     if note != json!("Choose the column of the input and of the output.") {
@@ -197,7 +200,7 @@ fn asks_for_columns(page: &mut Browser) -> Done {
     Ok(())
 }
 
-/// A refusal is the program's line, with the cell in its table.
+/// Checks that the page shows the program's error line and marks the cell in the table.
 fn marks_the_place(page: &mut Browser, native: &Native) -> Done {
     let text = std::fs::read_to_string(native.folder().join("straight.csv"))?;
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -218,12 +221,12 @@ fn marks_the_place(page: &mut Browser, native: &Native) -> Done {
     Ok(())
 }
 
-/// Whatever is dropped, the page answers with a record or one line: the fuzz corpus of the reader.
+/// Checks that the page answers any file with a record or one line, on the reader's fuzz corpus.
 fn survives_anything(page: &mut Browser, native: &Native) -> Done {
     let mut files = Vec::new();
     for seed in std::fs::read_dir(root().join("../fuzz/seeds/record"))? {
         let bytes = std::fs::read(seed?.path())?;
-        // The first byte of a seed chooses options.
+        // The first byte of a seed selects options.
         let name = format!("seed-{}", files.len());
         files.push(native.write(&name, bytes.get(1..).unwrap_or_default())?);
     }
@@ -243,7 +246,7 @@ fn survives_anything(page: &mut Browser, native: &Native) -> Done {
     Ok(())
 }
 
-/// After a search that was cancelled, the page answers as before.
+/// Checks that the page answers as before after a cancelled search.
 fn cancels(page: &mut Browser, native: &Native) -> Done {
     pages::choose(page, &[native.folder().join("straight.csv")])?;
     page.until("!document.getElementById('identify').disabled")?;
@@ -258,7 +261,7 @@ fn cancels(page: &mut Browser, native: &Native) -> Done {
     )
 }
 
-/// Requests to the page's own server alone, and no error on the console.
+/// Checks that all requests went to the page's own server and that the console shows no error.
 fn stays_alone(page: &mut Browser, address: &str) -> Result<(), Ended> {
     page.value("1")?;
     let is_own = |url: &String| {

@@ -1,11 +1,11 @@
-//! The tasks of the page.
+//! Tasks for the web page.
 //!
 //! - `cargo xtask` builds the page into `web/dist`; `--out DIR` writes it elsewhere.
 //! - `cargo xtask serve` serves `web/dist` on this machine; `--port N` chooses the port.
 //! - `cargo xtask test` runs the page in Chromium and compares its answers with the program's.
 //! - `cargo xtask time` prints the size of the page, and its time next to the program's.
 //!
-//! Exit status 77: a task cannot run here, and a line says why.
+//! Exit status 77: a task cannot run on this machine; a line gives the reason.
 
 mod browser;
 mod build;
@@ -20,12 +20,12 @@ use std::process::ExitCode;
 
 const USAGE: &str = "cargo xtask [--out DIR]\n       cargo xtask serve [--port N]\n       cargo xtask test\n       cargo xtask time";
 
-/// Exit status of a task that cannot run here.
+/// Exit status of a task that cannot run on this machine.
 const SKIPPED: u8 = 77;
 
 /// Why a task ended.
 enum Ended {
-    /// Something the task needs is absent.
+    /// Something that the task needs is missing.
     Skipped(String),
     /// Something is wrong.
     Failed(String),

@@ -1,18 +1,18 @@
-//! The program on this machine, next to which the page is measured.
+//! The native program, with which the page is compared.
 
 use crate::{failed, root, Ended};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The program, and a folder in which it runs.
+/// The program and the folder in which it runs.
 pub struct Native {
     program: PathBuf,
     folder: PathBuf,
 }
 
 impl Native {
-    /// Builds the program; in the folder are copies of the example records.
+    /// Builds the program, and copies the example records to the folder.
     pub fn build() -> Result<Self, Ended> {
         let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
         let output = Command::new(cargo)
@@ -55,14 +55,14 @@ impl Native {
         Ok(path)
     }
 
-    /// The JSON of a command line of the page.
+    /// The JSON that a command line of the page prints.
     pub fn run(&self, line: &str) -> Result<Value, Ended> {
         Ok(serde_json::from_str(
             &self.text(&format!("{line} --json"))?,
         )?)
     }
 
-    /// What a command line prints.
+    /// The text that a command line prints.
     pub fn text(&self, line: &str) -> Result<String, Ended> {
         let output = self.output(line)?;
         match output.status.success() {
@@ -74,7 +74,7 @@ impl Native {
         }
     }
 
-    /// The line that a command refuses with, without the name of the program.
+    /// The error line of a command that fails, without the name of the program.
     pub fn refusal(&self, line: &str) -> Result<String, Ended> {
         let output = self.output(line)?;
         let text = String::from_utf8_lossy(&output.stderr);

@@ -1,11 +1,11 @@
-//! What a user does on the page, and what the page then holds.
+//! The actions of a user on the page, and their results.
 
 use crate::browser::Browser;
 use crate::{failed, Ended};
 use serde_json::Value;
 use std::path::PathBuf;
 
-/// Whether the reader has answered about all files.
+/// Whether the reader has processed all files.
 const IS_READ: &str =
     "bowden.state.files.length > 0 && bowden.state.answered === bowden.state.turn";
 
@@ -33,7 +33,7 @@ pub fn part(page: &mut Browser, column: &str, part: &str) -> Result<(), Ended> {
     page.until(IS_READ)
 }
 
-/// Names the channel of a column.
+/// Sets the channel name of a column.
 pub fn channel(page: &mut Browser, column: &str, name: &str) -> Result<(), Ended> {
     part(page, column, "channel")?;
     let script = format!(
@@ -45,7 +45,7 @@ pub fn channel(page: &mut Browser, column: &str, name: &str) -> Result<(), Ended
     page.until(IS_READ)
 }
 
-/// Identifies, and waits for the result; returns the seconds between the click and the result.
+/// Starts the identification and waits for the result; returns the time from click to result \[s\].
 pub fn identify(page: &mut Browser) -> Result<f64, Ended> {
     page.until("!document.getElementById('identify').disabled")?;
     let script = "(async () => {

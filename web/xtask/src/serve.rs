@@ -1,4 +1,4 @@
-//! A file server for one folder, on this machine alone.
+//! A file server for one folder, reachable from this machine only.
 
 use crate::{failed, Done, Ended};
 use std::io::{BufRead as _, BufReader, Write as _};
@@ -27,7 +27,7 @@ pub fn in_background(folder: PathBuf) -> Result<String, Ended> {
 fn answer_all(listener: &TcpListener, folder: &Path) {
     for stream in listener.incoming().flatten() {
         let folder = folder.to_owned();
-        // A browser that goes away ends its own connection only.
+        // A browser that disconnects ends its own connection only.
         std::thread::spawn(move || drop(answer(stream, &folder)));
     }
 }

@@ -5,7 +5,7 @@ use crate::native::Native;
 use crate::{build, pages, root, serve, Done};
 use std::time::Instant;
 
-/// Repetitions, of which the fastest counts.
+/// Repetitions; the fastest counts.
 const TIMES: usize = 5;
 
 /// Prints sizes and times.
