@@ -1,4 +1,4 @@
-// The page: files in, choices, the search, the answer. Nothing leaves the tab.
+// The page: files, options, search and answer. Nothing leaves the tab.
 
 import { element } from "./dom.js";
 import { Cancelled, Engine } from "./engine.js";
@@ -11,10 +11,10 @@ const engine = new Engine();
 const EXAMPLE = "built-in synthetic record (bowden generate --mode torque --effect viscous --seed 7)";
 const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "invertible"];
 
-// The files, the parts of the columns that the user has chosen, and the last result.
+// The files, the column roles that the user has chosen, and the last result.
 const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, turn: 0, answered: 0 };
 
-// ---- what the user chose ------------------------------------------------------------------------
+// ---- the user's options -------------------------------------------------------------------------
 
 function choices() {
   const all = {};
@@ -32,7 +32,7 @@ function choices() {
   return all;
 }
 
-// Only what differs from the reader's own reading becomes an option.
+// Only roles that differ from the reader's own become options.
 function parts() {
   const own = {};
   const chosen = state.parts;
@@ -70,7 +70,7 @@ function hide(...ids) {
   for (const id of ids) at(id).hidden = true;
 }
 
-// Asks the reader about every file with the present choices; the last call counts.
+// Reads every file with the current options; only the last call counts.
 async function look() {
   const turn = ++state.turn;
   const chosen = choices();
@@ -89,7 +89,7 @@ async function look() {
   }
 }
 
-// The options of the reader, without those of the search.
+// The reader's options, without those of the search.
 function reading(chosen) {
   const { baseline, max_terms, invertible, ...rest } = chosen;
   return rest;
@@ -113,7 +113,7 @@ function refuse(line) {
 
 // ---- columns ------------------------------------------------------------------------------------
 
-// What the reader has answered, with the present parts.
+// Shows the reader's answers, with the current roles.
 function show() {
   listFiles();
   const looks = state.files.map((file) => state.looks.get(file)).filter(Boolean);
@@ -127,13 +127,13 @@ function show() {
   const missing = Object.keys(names).filter((part) => !state.parts.some((own) => own.part === part));
   at("columns-note").textContent = missing.length
     ? `Choose the column of the ${missing.join(" and of the ")}.`
-    : "The parts below follow from the names. Correct a part by choosing another one.";
+    : "The roles below follow from the names. To correct a role, choose another one.";
   const focus = document.activeElement?.id;
   at("columns").replaceChildren(...first.columns.map((column, index) => card(column, index, refused?.refusal?.column)));
   if (focus?.startsWith("part-") || focus?.startsWith("channel-")) at(focus)?.focus();
   const notes = [...new Set(looks.flatMap((own) => own.notes ?? []))];
   const defects = looks.flatMap((own) => own.defects ?? []);
-  at("notes").replaceChildren(...said("The reader notes", notes), ...said("Defects of the measurement", defects.map((own) => own.message)));
+  at("notes").replaceChildren(...said("Notes on the file", notes), ...said("Measurement defects", defects.map((own) => own.message)));
   at("identify").disabled = Boolean(refused);
 }
 
@@ -142,7 +142,7 @@ function said(title, lines) {
   return [element("h3", {}, title), element("ul", { class: "notes" }, ...lines.map((line) => element("li", {}, line)))];
 }
 
-// The reader's parts, which stay until the user chooses others.
+// The reader's roles, which apply until the user chooses others.
 function guess(found) {
   if (state.parts && state.parts.length === found.columns.length) return;
   state.parts = found.columns.map((own) => ({ name: own.name, guess: own.part, guessed: own.channel, part: own.part, channel: own.channel ?? "" }));
@@ -151,7 +151,7 @@ function guess(found) {
 function card(column, index, refused) {
   const own = state.parts[index];
   const title = column.unit ? `${column.name} [${column.unit}]` : column.name || `column ${index + 1}`;
-  const choose = element("select", { id: `part-${index}`, "aria-label": `Part of ${title}`, disabled: !column.name, onchange: (event) => change(index, event.target.value) },
+  const choose = element("select", { id: `part-${index}`, "aria-label": `Role of ${title}`, disabled: !column.name, onchange: (event) => change(index, event.target.value) },
     ...[["", "not read"], ["time", "time"], ["input", "input"], ["output", "output"], ["channel", "channel"]].map(([value, text]) => element("option", { value, selected: (own.part ?? "") === value }, text)));
   const channel = own.part === "channel"
     ? element("input", { id: `channel-${index}`, type: "text", list: "channel-names", value: own.channel, "aria-label": `Name of the channel ${title}`, onchange: (event) => ((own.channel = event.target.value), look()) })
@@ -166,7 +166,7 @@ function card(column, index, refused) {
 
 function change(index, part) {
   const own = state.parts[index];
-  // Of time, input and output there is one column each.
+  // Time, input and output have one column each.
   if (["time", "input", "output"].includes(part)) {
     for (const other of state.parts) if (other.part === part) other.part = null;
   }
@@ -177,7 +177,7 @@ function change(index, part) {
   if (both || part === "channel" || !part) look();
 }
 
-// The line of the program, and the place in the table.
+// The program's error line, and its place in the table.
 function refusal(found) {
   const { text, line, column, lines } = found.refusal;
   const all = [element("p", { class: "refusal" }, text)];
@@ -233,7 +233,7 @@ function told(what, share) {
   if (share !== null) at("bar").value = Math.max(share, at("bar").value);
 }
 
-// The hysteresis state over an input with other parameters.
+// The hysteresis state along an input, with other parameters.
 async function shape(parameters, input) {
   const answered = await engine.ask({ ask: "shape", parameters }, { bytes: input.slice().buffer });
   return new Float64Array(answered.files.eta.slice().buffer);
@@ -243,7 +243,7 @@ async function validate(file) {
   const { found, choices: chosen } = state.result ?? {};
   const model = found?.files["model.toml"];
   if (!model) {
-    at("validated").replaceChildren(element("p", { class: "refusal" }, `There is no model to validate: ${found?.no_model ?? ""}`));
+    at("validated").replaceChildren(element("p", { class: "refusal" }, `No model to validate: ${found?.no_model ?? ""}`));
     return;
   }
   at("validated").replaceChildren(element("p", { class: "note" }, "validating …"));
@@ -251,7 +251,7 @@ async function validate(file) {
   try {
     const held = await engine.ask({ ask: "validate", model: "model.toml", file: file.name, choices: rest }, { files: [file], bytes: model.slice().buffer });
     state.validated = held;
-    at("validated").replaceChildren(...answer(held, "validate"), element("details", {}, element("summary", {}, "Report of the validation"), report(held, "validate")));
+    at("validated").replaceChildren(...answer(held, "validate"), element("details", {}, element("summary", {}, "Validation report"), report(held, "validate")));
   } catch (error) {
     at("validated").replaceChildren(element("p", { class: "refusal" }, error.message));
   }
@@ -279,7 +279,7 @@ const second = async (list) => {
 
 dropOn(at("drop"), add);
 dropOn(at("drop-second"), second);
-// A file that is dropped next to a zone would replace the page.
+// Without this, a file dropped outside a zone would replace the page.
 for (const kind of ["dragover", "drop"]) window.addEventListener(kind, (event) => event.preventDefault());
 at("files").addEventListener("change", (event) => add(event.target.files).then(() => (event.target.value = "")));
 at("second").addEventListener("change", (event) => second(event.target.files).then(() => (event.target.value = "")));
@@ -293,5 +293,5 @@ for (const id of ["options", "mode"]) at(id).addEventListener("change", () => st
 document.body.append(element("datalist", { id: "channel-names" }, ...["phi_p", "phi_d", "temperature", "load"].map((value) => element("option", { value }))));
 engine.prepare().catch((error) => refuse(`The program could not be loaded: ${error.message}`));
 
-// What the page holds, for tests and for the console.
+// The state of the page, for tests and for the console.
 window.bowden = { state, engine };

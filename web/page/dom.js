@@ -1,4 +1,4 @@
-// Elements of the page, with their attributes and handlers.
+// Creates elements with their attributes and event handlers.
 
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);

@@ -1,4 +1,4 @@
-// The engine as the page sees it: a worker that answers requests, keeps files, and can be ended.
+// The engine as seen by the page: a worker that answers requests, keeps files, and can be stopped.
 
 export class Engine {
   #program = null;
@@ -9,7 +9,7 @@ export class Engine {
   #fault = "";
   #told = () => {};
 
-  // The program and the script of the worker, from the page itself if the page is a single file.
+  // The program and the worker script; a single-file page contains both.
   async #load() {
     const own = document.getElementById("program");
     if (!own) {
@@ -22,7 +22,7 @@ export class Engine {
     return { program, worker: document.getElementById("worker").textContent };
   }
 
-  // Begins to load; the first request waits for it. From then on nothing more is loaded.
+  // Starts loading; the first request waits for it. Nothing else is loaded afterwards.
   prepare() {
     this.#program ??= this.#load();
     return this.#program;
@@ -54,7 +54,7 @@ export class Engine {
   }
 
   #stopped(why) {
-    const message = `bowden has stopped because of an error of its own: ${this.#fault || why}`;
+    const message = `bowden stopped because of an internal error: ${this.#fault || why}`;
     this.#end(new Refusal(message));
   }
 
@@ -68,12 +68,12 @@ export class Engine {
     for (const { reject } of waiting) reject(error);
   }
 
-  // Ends what runs; the next request starts a new worker.
+  // Stops the running request; the next request starts a new worker.
   cancel() {
     this.#end(new Cancelled());
   }
 
-  // Asks about files, which the worker receives if it does not have them yet.
+  // Sends a request; the worker first receives the files that it does not have yet.
   async ask(request, { files = [], bytes, told } = {}) {
     await this.#start();
     for (const file of files) {
@@ -101,6 +101,6 @@ async function part(name) {
   return answer;
 }
 
-// What the program refuses, in its one line.
+// An error of the program, as its one-line message.
 export class Refusal extends Error {}
 export class Cancelled extends Error {}

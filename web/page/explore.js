@@ -1,12 +1,13 @@
-// The parts of the model, switched on and off: the gains are fitted again at every change.
+// Switches the parts of the model on and off; the gains are refitted at every change.
 //
-// The trace has what each part adds to the output. With some parts switched off, one factor for each
-// of the others is fitted to the fit segment by least squares; the errors are those on each segment.
+// The trace contains the contribution of each part to the output. With some parts switched off, one
+// factor for each other part is fitted to the fit segment by least squares; the errors are those on
+// each segment.
 
 import { element } from "./dom.js";
 import { digits, line, svg, ticks } from "./plot.js";
 
-// The columns of the trace by name, without units in the names.
+// The columns of the trace, by name; the names have no units.
 export function table(text) {
   const rows = text.trim().split("\n").map(cells);
   const names = rows[0].map((cell) => cell.replace(/ \[[^\]]*\]$/, ""));
@@ -19,7 +20,7 @@ function cells(row) {
   return all.map((cell) => cell.replace(/[,\r]$/, "").replace(/^"|"$/g, ""));
 }
 
-// Factors of the columns, by least squares over the rows; null if they cannot be told apart.
+// Factors of the columns, by least squares over the rows; null if the columns are not independent.
 export function solve(columns, target, rows) {
   const count = columns.length;
   const size = columns.map((own) => Math.sqrt(rows.reduce((sum, i) => sum + own[i] ** 2, 0)) || 1);
@@ -47,7 +48,7 @@ export function solve(columns, target, rows) {
 
 const FIXED = ["record", "t", "segment", "input", "measured", "baseline", "final", "residual"];
 
-// `shape` gives the hysteresis state over an input, for the parameters that the user drags.
+// `shape` gives the hysteresis state along an input, for the parameters that the user drags.
 export function explore(found, shape) {
   const text = (name) => new TextDecoder().decode(found.files[name]);
   const { names, units, rows } = table(text("trace.csv"));
@@ -70,7 +71,7 @@ export function explore(found, shape) {
   const known = JSON.parse(text("result.json")).final.parameters;
   const value = (name) => known.find((own) => own.name === name)?.value;
   const identified = ["rho", "sigma", "n", "eta0"].map(value);
-  // Several records begin with states of their own.
+  // With several records, each has its own initial state.
   if (!several && identified.slice(0, 3).every(Number.isFinite)) data.shape = { identified, unit: known.find((own) => own.name === "rho").unit, of: shape };
   return view(data, parts.filter((own) => own.values.some((value) => value !== 0)));
 }
@@ -79,7 +80,7 @@ function label(name, unit) {
   return unit ? `${name} [${unit}]` : name;
 }
 
-const NO_POINT = "Move the pointer over a figure, or the arrow keys in the residual, to read the values.";
+const NO_POINT = "Move the pointer over a figure, or use the arrow keys in the residual, to read values.";
 
 function view(data, parts) {
   const span = { from: 0, to: data.time.length - 1 };
@@ -100,8 +101,8 @@ function view(data, parts) {
     });
     return field;
   };
-  const from = slide("from", "Start of the shown time");
-  const to = slide("to", "End of the shown time");
+  const from = slide("from", "Start of the time range shown");
+  const to = slide("to", "End of the time range shown");
   const zoom = (a, b) => {
     [span.from, span.to] = a === null ? [0, data.time.length - 1] : [Math.min(a, b), Math.max(a, b)];
     [from.value, to.value] = [span.from, span.to];
@@ -151,12 +152,12 @@ function view(data, parts) {
   const shapes = sliders(data, parts.find((own) => own.name === "transmission.hysteresis"), fit);
   const root = element("section", { "aria-labelledby": "explore-head" },
     element("h3", { id: "explore-head" }, "Take the model apart"),
-    element("p", { class: "note" }, "Switch a part off: the gains of the other parts are fitted again to the fit segment. Drag over the residual to zoom; the loop shows the same time."),
+    element("p", { class: "note" }, "Switch a part off, and the gains of the other parts are refitted to the fit segment. Drag over the residual to zoom; the loop shows the same time range."),
     errors,
     element("div", { class: "explore" },
       element("fieldset", {}, element("legend", {}, "Parts of the model"), list),
       shapes,
-      element("fieldset", {}, element("legend", {}, "Shown time"),
+      element("fieldset", {}, element("legend", {}, "Time range shown"),
         element("label", { class: "slide" }, "from", from), element("label", { class: "slide" }, "to", to),
         element("p", {}, element("button", { type: "button", onclick: () => zoom(null) }, "Show all")), hover)),
     element("p", { class: "note keys" }, element("span", { class: "measured" }, "measured"), element("span", { class: "model" }, "model"), element("span", { class: "rest" }, "residual")),
@@ -165,7 +166,7 @@ function view(data, parts) {
   return root;
 }
 
-// The parameters of the hysteresis, to be dragged: the loop follows.
+// Sliders for the hysteresis parameters; the loop follows.
 function sliders(data, part, fit) {
   if (!data.shape || !part) return null;
   const { identified, unit, of } = data.shape;
@@ -183,7 +184,7 @@ function sliders(data, part, fit) {
     const eta = await of([...now.slice(0, 3), now[3] ?? 0], data.input);
     if (own !== turn) return;
     part.values = eta;
-    said.textContent = "Recomputed from the samples of the trace: at the identified values the error is close to that of the report, not equal.";
+    said.textContent = "Recomputed from the samples of the trace; at the identified values the error is therefore close, but not equal, to that of the report.";
     fit();
   };
   const fields = ranges.map(({ name, unit, low, high }, k) => {
@@ -208,12 +209,12 @@ function sliders(data, part, fit) {
     fit();
   });
   return element("fieldset", {}, element("legend", {}, "Shape of the hysteresis"), ...fields.map((own) => own.row), element("p", {}, back), said,
-    element("p", { class: "note" }, "rho: initial slope of eta. 2·sigma·rho: the slope after a reversal. n: sharpness of the knee."));
+    element("p", { class: "note" }, "rho: initial slope of eta. 2·sigma·rho: slope after a reversal. n: sharpness of the knee; larger is sharper."));
 }
 
 const [WIDTH, HEIGHT, LEFT, BOTTOM] = [560, 340, 58, 40];
 
-// Axes around a range, with what maps values to places.
+// Axes around a range, with functions that map values to positions.
 function frame(xs, ys, labels, title) {
   const range = (values) => {
     let [low, high] = [Infinity, -Infinity];
@@ -240,7 +241,7 @@ function frame(xs, ys, labels, title) {
   return { picture, x, y };
 }
 
-// Where the pointer is, in the units of the figure.
+// The position of the pointer, in the units of the figure.
 function place(picture, event) {
   const box = picture.getBoundingClientRect();
   return [((event.clientX - box.left) * WIDTH) / box.width, ((event.clientY - box.top) * HEIGHT) / box.height];
@@ -275,7 +276,7 @@ function residual(data, state, point, zoom) {
     const share = (place(picture, event)[0] - LEFT) / (WIDTH - LEFT - 8);
     return Math.round(from + Math.min(1, Math.max(0, share)) * (to - from));
   };
-  // The figure is drawn again while the pointer moves, so that the start is the state's.
+  // The figure is redrawn while the pointer moves, so the start of the drag is kept in the state.
   if (state.start !== undefined && state.at !== null) {
     const [a, b] = [x(data.time[state.start]), x(data.time[state.at])];
     picture.append(svg("rect", { class: "span", x: Math.min(a, b), width: Math.abs(b - a), y: 8, height: HEIGHT - BOTTOM - 8 }));

@@ -1,4 +1,4 @@
-// SVG made by hand: previews, and two figures that follow the pointer.
+// SVG drawn directly: previews, axis ticks and lines of the figures.
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
 
@@ -9,7 +9,7 @@ export function svg(name, attributes = {}, children = []) {
   return made;
 }
 
-// Four significant digits, without an exponent where it is not needed.
+// Four significant digits, with an exponent only if it is needed.
 export function digits(value) {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
@@ -17,7 +17,7 @@ export function digits(value) {
   return String(Number(value.toPrecision(4)));
 }
 
-// The span from least to largest value of each interval, as one line.
+// The range from the least to the largest value of each interval, as one line.
 export function preview(intervals, label) {
   const seen = intervals.filter(Boolean);
   const [width, height] = [240, 56];
@@ -35,7 +35,7 @@ export function preview(intervals, label) {
       return;
     }
     const x = ((index + 0.5) * width) / intervals.length;
-    // From the end that is nearer to the last value: a rising signal stays one line.
+    // Start from the end nearer to the last value, so that a rising signal stays one line.
     const first = last === null || Math.abs(own[0] - last) <= Math.abs(own[1] - last) ? 0 : 1;
     const points = own[0] === own[1] ? [own[0]] : [own[first], own[1 - first]];
     for (const value of points) path += `${path && last !== null ? "L" : "M"}${x.toFixed(1)} ${y(value).toFixed(1)}`, (last = value);

@@ -19,13 +19,13 @@ export function answer(found, kind) {
   const files = Object.keys(LABELS).filter((name) => found.files[name]);
   return [
     element("p", { class: "headline" }, first ?? ""),
-    // The best term; the summary says the rest in sentences.
+    // The best term; the summary gives the rest in sentences.
     ...more.filter((own) => own.includes(" · ")).map((own) => element("p", { class: "term" }, own)),
     element("p", {}, found.summary),
     found.no_model ? element("p", { class: "note" }, `No model file: ${found.no_model}`) : null,
     element("h3", {}, "Download"),
     element("p", { class: "downloads" }, ...files.map((name) => download(name, found.files[name], kind))),
-    element("h3", {}, "The same on a command line"),
+    element("h3", {}, "Equivalent command line"),
     command(found.command),
   ].filter(Boolean);
 }
@@ -33,7 +33,7 @@ export function answer(found, kind) {
 function download(name, bytes, kind) {
   const type = TYPES[name.split(".").pop()] ?? "text/plain";
   const link = element("a", { class: "button", download: kind === "validate" ? `validate-${name}` : name }, LABELS[name]);
-  // In the tab alone: nothing is fetched.
+  // The file stays in the tab; nothing is fetched.
   link.href = URL.createObjectURL(new Blob([bytes], { type }));
   return link;
 }
@@ -47,9 +47,9 @@ function command(line) {
   return element("div", { class: "command" }, element("pre", { tabindex: "0" }, element("code", {}, line)), copy);
 }
 
-// The report page: the program's own, in a frame.
+// The program's report page, in a frame.
 //
-// Without scripts and as tall as its text, so that the page scrolls as one.
+// The frame runs no scripts and is as tall as its text, so that the page scrolls as a whole.
 export function report(found, kind) {
   const frame = element("iframe", { class: "report", title: `Report of bowden ${kind}`, sandbox: "allow-same-origin" });
   const fit = () => {
@@ -60,7 +60,7 @@ export function report(found, kind) {
     fit();
     new ResizeObserver(fit).observe(frame);
   });
-  // Links within the report would lead to this page, whose address the frame has as its base.
+  // Links within the report would lead to this page, because its address is the base of the frame.
   const html = new TextDecoder().decode(found.files["report.html"]);
   frame.srcdoc = html.replaceAll('href="#', 'href="about:srcdoc#');
   return frame;

@@ -1,4 +1,4 @@
-// The engine in its own thread: one request after another, each with its progress.
+// The engine in a thread of its own: one request at a time, each with progress messages.
 let engine = null;
 
 function text(at, length) {
@@ -6,7 +6,7 @@ function text(at, length) {
 }
 
 const host = {
-  // "share<tab>message"; the share is empty for a message that is no step.
+  // "share<tab>message"; the share is empty if the message is not a step.
   tell(at, length) {
     const [share, what] = text(at, length).split("\t");
     postMessage({ what, share: share === "" ? null : Number(share) });
