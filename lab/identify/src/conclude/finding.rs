@@ -1,5 +1,5 @@
-//! What a reader must know about a record, its model or the rig, besides the missing mechanisms:
-//! each finding has a code, a severity and its evidence. [`words`](super::words) says it.
+//! Findings about a record, its model or the rig, besides the missing mechanisms. Each finding has
+//! a code, a severity and its evidence; [`words`](super::words) gives its sentences.
 
 use crate::ledger::{ChannelApart, CoarseChannel, FileApart};
 use crate::record::Defect;
@@ -7,13 +7,13 @@ use crate::score::explains::Explained;
 use crate::score::ranges::Outside;
 use serde::Serialize;
 
-/// How grave a finding is.
+/// The severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Severity {
-    /// Something to know.
+    /// Information.
     Note,
-    /// A reason to doubt a part of the model.
+    /// A reason to doubt part of the model.
     Warning,
     /// A reason not to use the model.
     Error,
@@ -21,7 +21,7 @@ pub enum Severity {
 
 /// A finding with its evidence. Its code in the JSON is the variant's name in kebab case.
 ///
-/// Errors are shares of the output's standard deviation.
+/// Errors are fractions of the output's standard deviation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "code", content = "evidence", rename_all = "kebab-case")]
 pub enum Finding {
@@ -31,21 +31,21 @@ pub enum Finding {
         input: String,
         /// The output's column.
         output: String,
-        /// Whether the input may be the force: then the output creeps.
+        /// Whether the input may be the force, so that the output creeps.
         may_creep: bool,
     },
-    /// In some files the output is another multiple of the input than in the others.
+    /// In some files the ratio of the output to the input differs from that in the other files.
     FilesScaled {
-        /// Those files.
+        /// These files.
         files: Vec<FileApart>,
-        /// Number of files that the fit sees.
+        /// Number of files in the fit.
         of: usize,
         /// The output's unit.
         unit: Option<String>,
     },
-    /// A channel has another sign or another place in one of the files.
+    /// In one of the files, a channel has the opposite sign or is swapped with another channel.
     ChannelDiffers(ChannelApart),
-    /// Neighbouring rows of the input have nothing in common, and the output follows row by row.
+    /// Neighbouring input rows are uncorrelated, and the output follows the input row by row.
     RowsShuffled {
         /// The input's column.
         input: String,
@@ -57,33 +57,33 @@ pub enum Finding {
         /// The input's column.
         input: String,
     },
-    /// A channel takes the input's place, although the input alone explains the output.
+    /// A channel replaces the input in the model, although the input alone explains the output.
     ChannelTakesOver {
         /// The input's column.
         input: String,
-        /// Shares of the held-out output's variance.
+        /// Fractions of the variance of the held-out output.
         explains: Explained,
         /// Number of channels.
         channels: usize,
-        /// Share that the input explains in the baseline model.
+        /// Fraction that the input explains in the baseline model.
         alone: f64,
     },
     /// The input explains less than half of the output.
     NothingExplained {
         /// The input's column.
         input: String,
-        /// Shares of the held-out output's variance.
+        /// Fractions of the variance of the held-out output.
         explains: Explained,
         /// Number of channels.
         channels: usize,
     },
-    /// The error on the held-out segment is that of another rig.
+    /// The error on the held-out segment is so large that the rig must have changed.
     RigChanged {
         /// Error on the fit segment.
         fit: f64,
         /// Error on the held-out segment.
         held_out: f64,
-        /// Time \[s\] from which on it is large, if that is within the held-out segment.
+        /// Time \[s\] after which the error is large, if this time is within the held-out segment.
         since: Option<f64>,
         /// The output's column.
         output: String,
@@ -98,41 +98,41 @@ pub enum Finding {
         gain: f64,
         /// The offset, in the output's unit.
         offset: f64,
-        /// That unit.
+        /// The output's unit.
         unit: Option<String>,
         /// Error with both.
         error: f64,
     },
-    /// A held-out file is not described, nor is it with another gain and offset.
+    /// The model describes a held-out file neither as it is nor with another gain and offset.
     HeldOutFileDiffers,
     /// The mean of the held-out output predicts it better than the model does.
     WorseThanConstant {
         /// Held-out error of the baseline model.
         before: f64,
-        /// The same of the final model.
+        /// Held-out error of the final model.
         after: f64,
     },
     /// The final model predicts the held-out segment worse than the baseline model does.
     HeldOutRises {
-        /// The second over the first of these errors.
+        /// The held-out error of the final model, divided by that of the baseline model.
         ratio: f64,
         /// Held-out error of the baseline model.
         before: f64,
-        /// The same of the final model.
+        /// Held-out error of the final model.
         after: f64,
         /// The added terms.
         terms: Vec<String>,
-        /// Number of first terms that lower the error.
+        /// Number of leading terms that lower the error.
         falls_up_to: usize,
     },
-    /// What was concluded rests on a measurement that is spoilt.
+    /// The conclusions rest on a defective measurement.
     DefectiveMeasurement {
         /// The defects.
         defects: Vec<Defect>,
     },
     /// The residual is the sensor's noise.
     ResidualIsNoise,
-    /// The residual is noise on the fit segment, and more on the held-out one.
+    /// The residual is noise on the fit segment, but exceeds the noise on the held-out segment.
     HeldOutAboveNoise {
         /// Held-out error in multiples of the noise.
         held_out: f64,
@@ -141,7 +141,7 @@ pub enum Finding {
     ResidualAboveNoise {
         /// Errors on the fit and on the held-out segment, in multiples of the noise.
         floors: Option<[f64; 2]>,
-        /// Whether it looks white; `None` where that was not asked.
+        /// Whether the residual appears white; `None` if this was not tested.
         is_white: Option<bool>,
         /// Number of added terms.
         terms: usize,
@@ -150,15 +150,15 @@ pub enum Finding {
     NoNameForCurve {
         /// The variable.
         variable: String,
-        /// What the best one or two effects explain of what the curve does.
+        /// Fraction of the curve's contribution that the best one or two effects explain.
         by_effects: f64,
     },
-    /// The record cannot tell terms from their alternatives.
+    /// The record cannot distinguish terms from their alternatives.
     TermsConfounded {
         /// Each term with its alternatives.
         pairs: Vec<String>,
     },
-    /// Too few independent stretches for a test.
+    /// The record has too few independent blocks for a test.
     TooFewBlocks {
         /// Number of added terms.
         terms: usize,
@@ -168,17 +168,17 @@ pub enum Finding {
         /// The input's column.
         input: String,
     },
-    /// The input of a displacement mode seems to be a velocity.
+    /// In displacement mode, the input appears to be a velocity.
     InputIsVelocity {
         /// The input's column.
         input: String,
     },
-    /// The model misses much of the output, and more than noise.
+    /// The error of the model is a large part of the output, and exceeds the noise.
     PoorModel {
         /// Its held-out error.
         error: f64,
     },
-    /// Input and output may stand in each other's place.
+    /// Input and output may be exchanged.
     InputOutputSwapped {
         /// The input's column.
         input: String,
@@ -186,48 +186,48 @@ pub enum Finding {
         output: String,
         /// Error of the final model.
         before: f64,
-        /// Error of the baseline model with both exchanged.
+        /// Error of the baseline model with input and output exchanged.
         after: f64,
     },
-    /// The held-out segment goes beyond the positions of the fit segment.
+    /// The positions of the held-out segment extend beyond those of the fit segment.
     Extrapolation(Outside),
-    /// Some of the motion of the input was not measured, and the hysteresis remembers it.
+    /// Part of the input's motion was not measured, but the hysteresis depends on it.
     MotionUnseen {
         /// The input's column.
         input: String,
     },
-    /// Files that are not of one rig.
+    /// The files do not come from one rig.
     FilesOfSeveralRigs {
         /// Error of one model for all files.
         together: f64,
-        /// Error with gains of its own for each file.
+        /// Error with separate gains for each file.
         own: f64,
     },
     /// A step of the preload lies where a file begins.
     ZeroDiffers {
         /// The file.
         path: String,
-        /// Whether gains of its own for each file are to be had.
+        /// Whether separate gains for each file are available.
         may_fit_gains: bool,
     },
-    /// Presliding and backlash are one function.
+    /// Presliding and backlash are the same function, up to a factor.
     PreslidingIsBacklash {
-        /// Whether the sign of kappa_x tells a spring from slack.
+        /// Whether the sign of kappa_x distinguishes a spring from slack.
         sign_tells: bool,
     },
-    /// A creep starts beyond what the input can explain.
+    /// A creep starts outside the range that the input can explain.
     CreepStartsOutside {
         /// The output's column.
         output: String,
     },
-    /// The hysteresis of the baseline is left out of the model.
+    /// The model omits the hysteresis of the baseline model.
     HysteresisLeftOut,
-    /// The hysteresis is a spring and an offset, which cancel it.
+    /// The hysteresis is nearly a spring and an offset, and the terms of that kind cancel it.
     HysteresisCancelled {
-        /// What is its own.
+        /// Difference from a spring and an offset, as a fraction of the output.
         share: f64,
     },
-    /// Tones at lines that the motion itself may make.
+    /// Tones at frequencies that the motion itself may cause.
     TonesOfMotion {
         /// The tones.
         terms: Vec<String>,
@@ -236,29 +236,29 @@ pub enum Finding {
     FrictionWithTension,
     /// The friction changes with a temperature.
     FrictionWithTemperature {
-        /// The temperature.
+        /// The temperature channel.
         channel: String,
     },
-    /// The output falls where the input rises.
+    /// The output falls when the input rises.
     OutputFalls {
         /// The input's column.
         input: String,
         /// The output's column.
         output: String,
     },
-    /// The loop of the hysteresis runs against that of the output.
+    /// The hysteresis loop runs in the opposite sense to that of the output.
     LoopReversed {
         /// Gain of the hysteresis.
         kappa_eta: f64,
         /// The terms that it cancels.
         terms: Vec<String>,
     },
-    /// The steps of a sensor account for much of the residual.
+    /// The resolution of a sensor accounts for much of the residual.
     CoarseSensor {
-        /// The channel, and what its steps do.
+        /// The channel, and the effect of its resolution.
         #[serde(flatten)]
         channel: CoarseChannel,
-        /// Its unit.
+        /// Unit of the channel.
         unit: Option<String>,
     },
     /// Nearly all of the model's output comes from a channel that the baseline does not need.
@@ -273,25 +273,25 @@ pub enum Finding {
         /// The input's column.
         input: String,
     },
-    /// The output comes before the input.
+    /// The output leads the input.
     OutputLeads {
-        /// By so much \[s\].
+        /// Lead \[s\].
         seconds: f64,
-        /// Whether an effect that the model lacks may be the cause.
+        /// Whether an effect that is missing from the model may be the cause.
         may_be_effect: bool,
     },
-    /// A limit that was asked for ended the search.
+    /// A limit set by the user ended the search.
     SearchStopped {
-        /// The time \[s\], if that was it.
+        /// The time limit \[s\], if it ended the search.
         seconds: Option<f64>,
-        /// The number of terms, if that was it.
+        /// The maximum number of terms, if it ended the search.
         terms: Option<usize>,
     },
-    /// The output moves much less on one segment than on the other.
+    /// The output varies much less on one segment than on the other.
     SegmentsDiffer {
         /// Standard deviation of the output on the fit segment.
         fit: f64,
-        /// The same on the held-out segment.
+        /// Standard deviation of the output on the held-out segment.
         held_out: f64,
     },
     /// A round raises the held-out error.
@@ -310,15 +310,15 @@ pub enum Finding {
         /// Error of the final model.
         after: f64,
     },
-    /// More terms than a record tells apart.
+    /// The model has more terms than a record can distinguish.
     ManyTerms {
-        /// Their number.
+        /// Number of terms.
         terms: usize,
     },
 }
 
 impl Finding {
-    /// How grave it is.
+    /// The severity of the finding.
     #[must_use]
     pub fn severity(&self) -> Severity {
         match self {
@@ -346,10 +346,10 @@ impl Finding {
     }
 }
 
-/// A finding as the JSON has it.
+/// A finding as it appears in the JSON.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Told {
-    /// How grave it is.
+    /// The severity of the finding.
     pub severity: Severity,
     /// The finding in words.
     pub words: String,

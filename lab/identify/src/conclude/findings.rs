@@ -1,4 +1,4 @@
-//! The findings on a run, the one that matters most first.
+//! The findings on a run, the most important first.
 
 use super::ballast::Part;
 use super::by_file::worse;
@@ -28,10 +28,10 @@ use crate::score::whiteness::is_white;
 use crate::search::policy::AT_FLOOR;
 use bowden::model::Source;
 
-/// Multiple of the noise floor from which a lead is no matter of clocks alone. A choice.
+/// Multiple of the noise floor above which clocks alone do not explain a lead. A choice.
 const MUCH: f64 = 3.0;
 
-/// What is to be known of a run with that verdict, besides the missing mechanisms.
+/// The findings on a run with this verdict, besides the missing mechanisms.
 #[must_use]
 pub fn findings(
     data: &Prepared,
@@ -76,7 +76,7 @@ pub fn findings(
     all
 }
 
-/// Why the model does not transfer.
+/// The reason why the model does not transfer.
 fn no_transfer(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Finding {
     let (before, after) = before_after(data, ledger, done);
     let terms = names(ledger, done);
@@ -101,7 +101,7 @@ fn no_transfer(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Finding {
     }
 }
 
-/// What goes with a verdict.
+/// The finding that belongs to a verdict.
 fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, verdict: Verdict) -> Option<Finding> {
     let terms = ledger.rounds.len();
     match verdict {
@@ -118,7 +118,7 @@ fn rest(data: &Prepared, ledger: &Ledger, done: &FinalFit, verdict: Verdict) -> 
     }
 }
 
-/// The errors in multiples of the noise; `None` where the record does not show it.
+/// The errors in multiples of the noise; `None` if the record does not show the noise.
 fn size(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<Finding> {
     let (fit, held_out) = floors(data, done)?;
     Some(Finding::ResidualAboveNoise {
@@ -139,7 +139,7 @@ fn above_noise(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Finding {
     }
 }
 
-/// What the residual depends on without a name.
+/// The variable on which the residual depends in a way that matches no effect.
 pub(crate) fn no_name(data: &Prepared, ledger: &Ledger) -> Option<Finding> {
     let unknown = ledger.unknown.as_ref()?;
     Some(Finding::NoNameForCurve {
@@ -158,14 +158,14 @@ fn confounded(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Finding {
     Finding::TermsConfounded { pairs }
 }
 
-/// A hysteresis that was fitted to a record without its reversals.
+/// A hysteresis that was fitted to a record without reversals.
 fn one_stroke(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     is_one_stroke(data, done).then(|| Finding::OneStroke {
         input: data.input.name.clone(),
     })
 }
 
-/// What the record, its columns and its files are.
+/// The findings about the record, its columns and its files.
 fn of_record(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Finding> {
     let mut all: Vec<Finding> = swapped(data, ledger).into_iter().collect();
     all.extend(extrapolates(data, done));
@@ -174,7 +174,7 @@ fn of_record(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Finding> 
     all
 }
 
-/// What the parts of the model are.
+/// The findings about the parts of the model.
 fn of_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Finding> {
     let mut all: Vec<Finding> = one_function(data, done).into_iter().collect();
     all.extend(starts_apart(data, &done.solution));
@@ -189,7 +189,7 @@ fn of_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Finding> {
     all
 }
 
-/// A channel that stands for the output or for the load, else clocks that are apart.
+/// A channel that repeats the output or the load; otherwise clocks that differ.
 fn of_channel(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<Finding> {
     if let Some(channel) = stands_for_output(data, &ledger.declared, &done.solution) {
         let channel = channel.to_owned();
@@ -201,7 +201,7 @@ fn of_channel(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<Findi
             input: data.input.name.clone(),
         });
     }
-    // What a channel of the wrong sign has brought in says nothing about clocks.
+    // A lead that is due to a channel of the wrong sign says nothing about clocks.
     let lead = ledger.lead.filter(|_| ledger.channel_apart.is_none());
     lead.map(|seconds| Finding::OutputLeads {
         seconds,
@@ -209,7 +209,7 @@ fn of_channel(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<Findi
     })
 }
 
-/// What the search, its rounds and the files say of the error.
+/// The findings about the error, from the search, its rounds and the files.
 fn of_rounds(data: &Prepared, ledger: &Ledger, done: &FinalFit, verdict: Verdict) -> Vec<Finding> {
     let mut all = Vec::new();
     if ledger.is_stopped() {
@@ -240,7 +240,7 @@ fn of_rounds(data: &Prepared, ledger: &Ledger, done: &FinalFit, verdict: Verdict
     all
 }
 
-/// `backlash`, `play(x) - x`, is `presliding`, `(x - play(x))/r`, with another factor.
+/// `backlash`, `play(x) - x`, is a multiple of `presliding`, `(x - play(x))/r`.
 fn one_function(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let mut terms = done.solution.structure.terms.iter();
     let term = terms.find(|term| Candidate::twin(term).is_some())?;
@@ -250,7 +250,7 @@ fn one_function(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     })
 }
 
-/// A hysteresis that is ballast.
+/// A hysteresis that the model does not need.
 fn ballast(done: &FinalFit) -> Option<Finding> {
     if done.without_hysteresis.is_some() {
         return Some(Finding::HysteresisLeftOut);
@@ -259,7 +259,7 @@ fn ballast(done: &FinalFit) -> Option<Finding> {
     Some(Finding::HysteresisCancelled { share: part.own })
 }
 
-/// The verdict in a few sentences, the one that matters most first.
+/// The verdict in a few sentences, the most important first.
 #[must_use]
 pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let found = verdict::verdict(data, ledger, done);
@@ -267,8 +267,7 @@ pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     summary(data, ledger, done, found, &findings)
 }
 
-/// The sentence on the missing mechanisms, where there is a model that transfers, and the findings in
-/// words.
+/// The sentence on the missing mechanisms, if the model transfers, and the findings in words.
 pub(crate) fn summary(
     data: &Prepared,
     ledger: &Ledger,

@@ -1,4 +1,4 @@
-//! What a finding says: one table.
+//! The sentences of the findings, in one table.
 
 use super::errors::percent;
 use super::finding::Finding;
@@ -6,8 +6,9 @@ use crate::ledger::{ChannelApart, CoarseChannel, FileApart};
 use crate::score::explains::Explained;
 use crate::score::ranges::Outside;
 
-/// Least share of an unmodelled curve, taken by names to first order, at which the sentence says
-/// why the curve was preferred. A choice: a reader who is told "95 %" asks why there is no name.
+/// Least fraction of an unmodelled curve that effects explain to first order, at which the sentence
+/// says why the curve was preferred. A choice: a reader who sees "95 %" asks why no effect is
+/// named.
 const NEARLY_ALL: f64 = 0.9;
 
 impl Finding {
@@ -16,7 +17,7 @@ impl Finding {
     #[allow(clippy::too_many_lines)] // A table: an arm for each finding.
     pub fn words(&self) -> String {
         match self {
-            // Why there is no model.
+            // The reasons why there is no model.
             Self::OutputIntegrates { input, output, may_creep } => {
                 let swap = match may_creep {
                     false => "they were mixed up".to_owned(),
@@ -37,7 +38,7 @@ impl Finding {
                 "This record gives no model: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
                 explained(input, *explains, *channels)
             ),
-            // Why the model must not be used on other data.
+            // The reasons why the model must not be used on other data.
             Self::RigChanged { fit, held_out, since, output, terms } => {
                 let since = since.map(|t| format!(", from {t:.3} s on")).unwrap_or_default();
                 let added = match terms.as_slice() {
@@ -77,7 +78,7 @@ impl Finding {
                 }
                 text
             }
-            // What is left.
+            // The residual.
             Self::ResidualIsNoise => "The residual is the sensor's noise.".to_owned(),
             Self::HeldOutAboveNoise { held_out } => format!("The residual is the sensor's noise on the fit segment, but {held_out:.1} times this noise on the held-out segment: the two segments differ."),
             Self::ResidualAboveNoise { floors, is_white, terms } => {
@@ -88,14 +89,14 @@ impl Finding {
                 let colour = match (is_white, terms) {
                     (None, _) => "",
                     (Some(true), _) => "; it looks like white noise and depends on no measured quantity",
-                    // The first sentence says already that no effect was found.
+                    // The first sentence already says that no effect was found.
                     (Some(false), 0) => "; it is coloured",
                     (Some(false), _) => "; it is coloured, but no further effect in the catalogue explains it",
                 };
                 format!("{size}{colour}.")
             }
             Self::NoNameForCurve { variable, by_effects } => {
-                // What names would take is known to first order; what was refitted and tested is decisive.
+                // The fraction of the effects is known to first order; the refit and test decide.
                 let but = match *by_effects >= NEARLY_ALL {
                     true => ", but none is accepted after a refit",
                     false => "",
@@ -118,7 +119,7 @@ impl Finding {
             Self::PoorModel { error } => {
                 format!("A model with an error of {} of the output is poor.", percent(*error))
             }
-            // What is to be known about the record.
+            // About the record.
             Self::DefectiveMeasurement { defects } => {
                 let all = defects.iter();
                 let all = all.map(|d| format!("{} ({})", d.channel, d.kind.name()));
@@ -166,7 +167,7 @@ impl Finding {
                 true => format!("The output moves {:.0} times less on the held-out segment than on the fit segment: their percentages are not comparable.", fit / held_out),
                 false => format!("The output moves {:.0} times more on the held-out segment than on the fit segment: their percentages are not comparable.", held_out / fit),
             },
-            // What is to be known about the model.
+            // About the model.
             Self::PreslidingIsBacklash { sign_tells } => {
                 let own = match sign_tells {
                     true => "; with the sign of kappa_x, presliding is a slipping spring; with the opposite sign, it is slack",
@@ -199,7 +200,7 @@ impl Finding {
     }
 }
 
-/// The unit behind a number.
+/// The unit after a number.
 pub(super) fn spaced(unit: Option<&str>) -> String {
     unit.map_or_else(String::new, |unit| format!(" {unit}"))
 }
@@ -219,13 +220,13 @@ pub(super) fn from_to((before, after): (f64, f64)) -> String {
     )
 }
 
-/// A share of the output's variance, "63 %", "0.4 %", "0 %".
+/// A fraction of the output's variance: "63 %", "0.4 %", "0 %".
 fn share(share: f64) -> String {
     let digits = if (0.001..0.1).contains(&share) { 1 } else { 0 };
     format!("{:.digits$} %", 100.0 * share)
 }
 
-/// What the input, the other channels and functions of time explain, in one clause.
+/// The fractions explained by the input, the other channels and functions of time, in one clause.
 fn explained(input: &str, explains: Explained, channels: usize) -> String {
     let mut text = format!(
         "the input `{input}` explains {} of the held-out output",
@@ -243,7 +244,7 @@ fn explained(input: &str, explains: Explained, channels: usize) -> String {
     text
 }
 
-/// Files with another gain.
+/// Files with a different gain.
 fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
     let Some((first, others)) = files.split_first() else {
         return String::new();
@@ -279,7 +280,7 @@ fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
     )
 }
 
-/// A channel that was logged otherwise in one file.
+/// A channel that was logged differently in one file.
 fn differs(apart: &ChannelApart) -> String {
     let ChannelApart {
         path,
@@ -310,7 +311,7 @@ fn differs(apart: &ChannelApart) -> String {
     )
 }
 
-/// A channel whose steps matter.
+/// A channel whose resolution matters.
 fn coarse(one: &CoarseChannel, unit: Option<&str>) -> String {
     let names = match one.names.as_slice() {
         [] => String::new(),
