@@ -116,8 +116,8 @@ impl Parts {
 
 /// The columns of a curve: the first of them, and the precision of its changes.
 ///
-/// Half a record may hardly cover some of the hat functions. Their gains change by as much as
-/// the curve's gains are large, by a normal prior.
+/// Half a record may hardly cover some of the hat functions. A normal prior therefore limits the
+/// changes of their gains to the size of the curve's gains.
 struct OfCurve {
     first: usize,
     precision: f64,
@@ -142,13 +142,13 @@ fn of_curve(solution: &Solution, squares: &dyn Fn(&Stretch) -> f64) -> OfCurve {
     }
 }
 
-/// How a model errs on blocks that were left out of its linear fit, over [`policy::HALVES`]
+/// Errors of a model on blocks that were left out of its linear fit, over [`policy::HALVES`]
 /// half-sets.
 struct LeftOut {
     /// Mean ln RMSE over all left-out blocks of a half-set.
     error: f64,
-    /// Mean ln of the squared error on each block, over the half-sets that leave it out. As the
-    /// mean of the error itself would not, it withstands a half-set that determines a gain badly.
+    /// Mean ln of the squared error on each block, over the half-sets that leave it out. Unlike the
+    /// mean of the error itself, it is robust against a half-set that determines a gain badly.
     on_blocks: Vec<f64>,
 }
 
@@ -194,11 +194,11 @@ impl LeftOut {
     }
 }
 
-/// Index of the model to deliver, of models in the order in which they are preferred: the first
-/// one that errs on left-out blocks as little as the best, or more by no more than chance.
+/// Index of the model to deliver, from models in order of preference: the first one whose error on
+/// left-out blocks is that of the best model, or exceeds it by no more than chance.
 ///
-/// The baseline model, the first of them, is delivered only where it errs least: the first
-/// addition has passed the test of the search against it.
+/// The baseline model, which is the first, is delivered only if its error is the smallest, because
+/// the first addition has passed the test of the search against it.
 #[must_use]
 pub fn delivered(data: &Prepared, models: &[&Solution]) -> usize {
     use rayon::prelude::*;

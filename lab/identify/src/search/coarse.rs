@@ -8,12 +8,11 @@ use std::sync::{Mutex, PoisonError};
 /// Number of evaluations and tolerance of a local search.
 pub(super) type Effort = (usize, f64);
 
-/// The squared error that a search has reached, and the values there.
+/// The squared error that a search has reached, and its parameter values.
 type Reached = Option<(f64, Vec<f64>)>;
 
-/// The coarse grid of the refits. One model is refitted from one start more than once: a move that
-/// was turned down comes back as a rival, a set that is left is met again. What its search has
-/// reached is then known.
+/// The coarse grid of the refits, with the results of earlier searches. A model may be refitted
+/// from the same start more than once: a rejected move returns as an alternative, or a set returns.
 pub(super) struct Coarse<'a> {
     pub(super) data: &'a Prepared,
     known: Mutex<Vec<(Question, Reached)>>,

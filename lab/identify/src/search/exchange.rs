@@ -1,15 +1,16 @@
 //! Power-law drag instead of other friction terms.
 //!
 //! `sgn(v)·|v|^a`, 0 < a < 1, lies between Coulomb (a towards 0) and viscous friction (a = 1). It
-//! fits a sum of the two nearly as well as they do, with one name instead of two, so that the
-//! price of a name would decide between them. It is therefore no candidate of the moves. Once no
-//! move is accepted any more, it is refitted in the place of the friction that was named on a
-//! channel, or of a curve over its velocity, and so are viscous and Coulomb friction together, which
-//! have one parameter more. It is named only if it is better than what was named by the criterion,
-//! and errs less than this pair, by more than chance, on blocks that were left out of the fit of the
-//! gains. Where more than noise is left, every block repeats the same misfit: there it has to be
-//! better by a margin, and to halve the pair's squared error. At the noise a margin would keep
-//! viscous, Coulomb and Stribeck friction, which together imitate it.
+//! fits a sum of the two nearly as well as they do, with one name instead of two, so the price of a
+//! name would decide between them. Power-law drag is therefore not a candidate of the moves. Once
+//! no move is accepted any more, two replacements are refitted for the named friction of a channel,
+//! or for a curve over its velocity: the power law, and the pair of viscous and Coulomb friction,
+//! which has one parameter more. The power law is named only if its criterion is better than that
+//! of the named terms, and if its error on blocks that were left out of the fit of the gains is
+//! smaller than that of the pair, by more than chance. If the residual exceeds the noise, every
+//! block repeats the same misfit: then the power law must also be better by a margin, and halve the
+//! pair's squared error. At the noise, a margin would keep viscous, Coulomb and Stribeck friction,
+//! which together imitate a power law.
 
 use super::bank::Identity;
 use super::kept::Kept;
@@ -29,13 +30,13 @@ use crate::score::left_out::ratios;
 use bowden::effect::Effect;
 use bowden::model::Source;
 
-/// The effect that takes their place.
+/// The effect that replaces other friction.
 const POWER_LAW: &str = "power-law";
-/// The pair that it has to beat.
+/// The pair that it must outperform.
 const PAIR: [&str; 2] = ["viscous", "coulomb"];
-/// Friction between rest and fast motion, which it may replace.
+/// Friction between rest and fast motion, which a power law may replace.
 const FRICTION: &[&str] = &["viscous", "coulomb", "stribeck"];
-/// The same, and drag that grows faster than the velocity.
+/// This friction, and drag that grows faster than the velocity.
 const WITH_DRAG: &[&str] = &[
     "viscous",
     "coulomb",
@@ -43,16 +44,16 @@ const WITH_DRAG: &[&str] = &[
     "drag-quadratic",
     "drag-cubic",
 ];
-/// Exponents from which its fit starts.
+/// Exponents from which the fit starts.
 const EXPONENTS: [f64; 2] = [0.3, 0.6];
 /// Widths of the sign, in units of the usual speed, from which Coulomb's fit starts: those of
 /// its trial shapes.
 const WIDTHS: [f64; 2] = [0.01, 0.08];
-/// Number of starts that are searched further.
+/// Number of starts that continue after the rough search.
 const FURTHER: usize = 2;
 
-/// Whether a name is a power law's, and another one of the friction on the same channel that it
-/// was compared with.
+/// Whether one name is a power law, and the other is friction on the same channel with which it was
+/// compared.
 pub(super) fn is_told_apart(own: &FitTerm, other: &FitTerm) -> bool {
     own.effect.name() == POWER_LAW
         && own.source == other.source
@@ -64,14 +65,14 @@ fn has(terms: &[FitTerm], source: Source, name: &str) -> bool {
     terms.any(|t| t.source == source && t.effect.name() == name)
 }
 
-/// What a power law would replace.
+/// The terms that a power law would replace.
 struct Place {
     source: Source,
     kept: Kept,
 }
 
 impl Search<'_> {
-    /// Puts a power law in the place of named friction; returns whether one was put in.
+    /// Replaces named friction with a power law; returns whether it was replaced.
     pub(super) fn exchanged(&mut self, standing: &Standing) -> bool {
         let linear = &standing.linear;
         let here = linear.identities(&linear.everything(), &[]);
@@ -89,8 +90,8 @@ impl Search<'_> {
         false
     }
 
-    /// The channels with named friction, or with a curve over their velocity, and what a power law
-    /// would replace there.
+    /// The channels with named friction, or with a curve over their velocity, and the terms that a
+    /// power law would replace there.
     fn places(&self) -> Vec<Place> {
         let terms = &self.now.structure.terms;
         let own = self.declared.structure.terms.len();
@@ -129,13 +130,13 @@ impl Search<'_> {
         places
     }
 
-    /// Whether the baseline model has that effect on that channel.
+    /// Whether the baseline model has this effect on this channel.
     fn declares(&self, source: Source, name: &str) -> bool {
         has(&self.declared.structure.terms, source, name)
     }
 
-    /// The model with a power law in that place, and the p-value of its comparison with the pair;
-    /// `None` where it is not accepted.
+    /// The model with a power law instead, and the p-value of its comparison with the pair; `None`
+    /// if the power law is not accepted.
     fn with_power_law(&self, standing: &Standing, place: &Place) -> Option<(Solution, f64)> {
         let linear = &standing.linear;
         let laws: Option<Vec<Structure>> = EXPONENTS
@@ -171,7 +172,7 @@ impl Search<'_> {
         beats.then_some((law, p))
     }
 
-    /// The model with viscous and Coulomb friction in that place.
+    /// The model with viscous and Coulomb friction instead.
     fn pair(&self, place: &Place) -> Option<Solution> {
         let speed = self.data.channel(place.source)?.speed;
         let beside = place.kept.of(&self.now.structure);
@@ -186,7 +187,7 @@ impl Search<'_> {
         self.fitted(&pairs?, 1, |_| false)
     }
 
-    /// The present structure with other effects in that place.
+    /// The present structure with other effects instead.
     fn with(&self, place: &Place, added: &[(&str, &[f64])]) -> Option<Structure> {
         let mut structure = place.kept.of(&self.now.structure);
         for (name, shapes) in added {

@@ -1,16 +1,17 @@
 //! A play or a stop that the hysteresis imitates.
 //!
-//! Both are hystereses. The declared one, fitted without them, bends towards their loop, and where
-//! it has arrived their column lies among its own slopes: to first order nothing is gained, and no
-//! move proposes them, with up to twelve times the noise left. What they explain shows only where
-//! the hysteresis is fitted anew together with them. So once no move is accepted any more and more
-//! than noise is left, a stop is refitted beside all that is there, from its trial widths and from
-//! three hystereses. It is named if the model then ends at the noise, and errs less on left-out
-//! blocks by more than chance. With a negative gain it is a play.
+//! Both effects are hystereses. The hysteresis of the baseline, fitted without them, imitates their
+//! loop, and their column then lies in the span of its slopes. To first order the effect gains
+//! nothing, so no move proposes it, although the residual may be up to twelve times the noise. The
+//! gain shows only if the hysteresis is refitted together with the effect. Therefore, if no move is
+//! accepted any more and the residual exceeds the noise, a stop is added to the model and all is
+//! refitted, from its trial widths and from three hystereses. The stop is named if the model then
+//! reaches the noise, and if its error on left-out blocks is smaller by more than chance. A stop
+//! with a negative gain is a play.
 //!
-//! That it halves the squared error is not enough. On a damper's record, of which no model reaches the
-//! noise, a stop did; it recurred in 9 of 100 half-records, and the model erred 28 times as much on the
-//! rig's other records as at home, in place of six times.
+//! To halve the squared error is not enough. On a damper's record whose noise no model reaches, a
+//! stop did so. Its selection frequency was 9 of 100 half-records, and the model's error on the
+//! rig's other records was 28 times the error on its own record, instead of six times.
 
 use super::bank::Identity;
 use super::moves::is_same;
@@ -24,7 +25,7 @@ use crate::score::blocks::{sign_flip_p_above, Regime};
 use crate::score::left_out::ratios;
 use bowden::model::Source;
 
-/// The effect that a hysteresis may hide where both read the input.
+/// The effect that a hysteresis may hide if both read the input.
 const HIDDEN: &str = "presliding";
 
 impl Search<'_> {
@@ -50,8 +51,8 @@ impl Search<'_> {
         true
     }
 
-    /// The model with a stop or a play of the input beside all that is there, and the p-value of
-    /// the comparison; `None` where it is not accepted.
+    /// The model with an additional stop or play of the input, and the p-value of the comparison;
+    /// `None` if the effect is not accepted.
     fn with_hidden(&self, standing: &Standing) -> Option<(Solution, f64)> {
         let linear = &standing.linear;
         let terms = linear.groups.iter().filter_map(|group| group.candidate());
@@ -72,7 +73,7 @@ impl Search<'_> {
         accepted.then_some((next, p))
     }
 
-    /// The present structure and one term more.
+    /// The present structure with one more term.
     fn and(&self, term: FitTerm) -> Structure {
         let mut structure = self.now.structure.clone();
         structure.terms.push(term);

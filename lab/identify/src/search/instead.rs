@@ -30,8 +30,8 @@ impl Linear<'_> {
         self.curve_of(one).is_some()
     }
 
-    /// The names over the variable of a curve that a move adds, each alone in its place at its
-    /// best trial shape, the most promising ones first. Each has to pass the test, as in a move.
+    /// The names over the variable of a curve that a move adds, the most promising ones first. Each
+    /// replaces the curve alone, at its best trial shape, and must pass the test, as in a move.
     fn names_instead(&self, curve: &Move) -> Vec<Move> {
         let Some(variable) = self.curve_of(curve) else {
             return Vec::new();
@@ -64,8 +64,8 @@ impl Linear<'_> {
 }
 
 impl Search<'_> {
-    /// Refits the names in the place of a curve; those that lower the criterion. They do not count
-    /// as visited: beside a curve, or later, each may do better.
+    /// Refits the names instead of a curve; returns those that lower the criterion. They do not
+    /// count as visited: together with a curve, or later, each may do better.
     pub(super) fn names_instead(&self, standing: &Standing, curve: &Move, j: f64) -> Vec<Tried> {
         let linear = &standing.linear;
         let mut tried = Vec::new();

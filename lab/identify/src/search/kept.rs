@@ -10,7 +10,7 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// What it keeps of a structure.
+    /// The kept part of a structure.
     pub(super) fn of(&self, structure: &Structure) -> Structure {
         let mut kept = structure.clone();
         let ids = structure.terms.ids();

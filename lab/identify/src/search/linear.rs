@@ -148,7 +148,7 @@ pub(super) struct Linear<'a> {
     pub(super) now: Solution,
     pub(super) declared: usize,
     pub(super) grams: Grams,
-    /// The Gram matrix swept by the declared part.
+    /// The Gram matrix swept by the baseline part.
     base: Swept,
     /// The candidates of a forward selection.
     pub(super) sought: Sought,
@@ -159,7 +159,7 @@ pub(super) struct Linear<'a> {
     pub(super) regime: Regime,
     /// Correlation time of the residual of the best set \[s\].
     pub(super) correlation_time: f64,
-    /// The declared part: gains and slopes.
+    /// The baseline part: gains and slopes.
     own: Vec<usize>,
     /// Gain and slopes of each term.
     terms: Vec<Vec<usize>>,
@@ -355,7 +355,7 @@ impl<'a> Linear<'a> {
         !self.table.is_empty()
     }
 
-    /// The columns of what is kept.
+    /// The kept columns.
     pub(super) fn columns_of(&self, kept: &Kept) -> Vec<usize> {
         let mut columns = self.own.clone();
         for (index, own) in self.terms.iter().enumerate() {
@@ -397,7 +397,7 @@ impl<'a> Linear<'a> {
         self.grams.unit(self.target)
     }
 
-    /// Squared error of what is kept, to first order.
+    /// Squared error of the kept part, to first order.
     pub(super) fn left(&self, kept: &Kept) -> f64 {
         let (target, unit) = self.target_of(kept);
         unit * self.grams.squared_error(&self.columns_of(kept), target)

@@ -15,8 +15,8 @@ use crate::model::mechanism::Mechanism;
 use rayon::prelude::*;
 
 impl Search<'_> {
-    /// What describes each mechanism of the final model about as well; nothing if the model is
-    /// complete, whose terms have alternatives of their own.
+    /// The sets of terms that describe each mechanism of the final model about as well. None if the
+    /// model is complete: its terms then have their own alternatives.
     pub(super) fn descriptions(&self, standing: &Standing) -> Vec<Description> {
         if self.is_at_noise(&self.now) {
             return Vec::new();
@@ -26,7 +26,7 @@ impl Search<'_> {
             .collect()
     }
 
-    /// The found terms of each mechanism that has some.
+    /// The terms found for each mechanism that has terms.
     fn found_by_mechanism(&self) -> Vec<(Mechanism, Vec<usize>)> {
         let own = self.declared.structure.terms.len();
         let of_term = |term| Mechanism::of_term(&self.now.structure.terms[term]);
@@ -71,8 +71,8 @@ impl Search<'_> {
 }
 
 impl Linear<'_> {
-    /// The best sets of at most as many terms of a mechanism in place of those found, to first
-    /// order. A set that is longer by one term grows from the best ones that are shorter.
+    /// The best sets of at most as many terms of a mechanism instead of those found, to first
+    /// order. Each longer set extends one of the best shorter sets by one term.
     fn sets(&self, found: Vec<usize>, mechanism: Mechanism) -> Vec<Move> {
         let most = found.len();
         let kept = Kept {
@@ -103,7 +103,7 @@ impl Linear<'_> {
         self.best(all)
     }
 
-    /// A set with each one of the groups in addition.
+    /// A set, extended by each of the groups in turn.
     fn grown(&self, set: &Move, own: &[usize]) -> Vec<Move> {
         let mut swept = self.without(&set.kept);
         set.added

@@ -7,8 +7,8 @@
 //! forward selection updates only the entries that it reads (`partial`, `sought`, `forward`).
 //! The remaining question, the error with all shapes refitted, is asked for the three best
 //! moves of a round only (`refit`). `run` accepts or rejects the refitted move, linearises the
-//! accepted model again, and stops when no move lowers the criterion. `readoff` reads rounds,
-//! rivals and the unmodelled curve off the final set; `carries_over` decides how many names
+//! accepted model again, and stops when no move lowers the criterion. `readoff` derives rounds,
+//! alternatives and the unmodelled curve from the final set; `carries_over` decides how many names
 //! are delivered. Every threshold is in `policy`.
 
 mod bank;
@@ -48,10 +48,11 @@ pub use policy::MOST_NAMES;
 use refit::on;
 use run::Search;
 
-/// Finds the effects that a baseline model lacks. `progress` receives one message a step.
+/// Finds the effects that are missing from a baseline model. `progress` receives one message per
+/// step.
 ///
 /// # Errors
-/// One sentence where the baseline model cannot be fitted at all.
+/// One sentence if the baseline model cannot be fitted at all.
 pub fn close(
     data: &Prepared,
     structure: &Structure,
@@ -81,7 +82,7 @@ impl From<usize> for Limits {
 /// As [`close`], within limits.
 ///
 /// # Errors
-/// One sentence where the baseline model cannot be fitted at all.
+/// One sentence if the baseline model cannot be fitted at all.
 pub fn close_within(
     data: &Prepared,
     structure: &Structure,
@@ -126,8 +127,8 @@ pub fn close_within(
     Ok(ledger)
 }
 
-/// Lead \[s\] of the output before the input: one delay, which may be negative here, fitted to the
-/// baseline model and to the last model, of each that is above the noise.
+/// Lead \[s\] of the output relative to the input: a delay, which may be negative here, fitted to
+/// the baseline model and to the last model, if they do not reach the noise.
 ///
 /// `None` if it is less than a sample, or if it removes less than half of the squared error, both of
 /// the model without it and of the model with the first term.
@@ -168,7 +169,7 @@ fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     (regime, samples * data.dt * data.stride as f64)
 }
 
-/// A question to the linearisation of a model. `None` if the model cannot be evaluated.
+/// Evaluates a query on the linearisation of a model. `None` if the model cannot be evaluated.
 fn asked_of<R>(
     data: &Prepared,
     solution: &Solution,
@@ -183,8 +184,8 @@ fn asked_of<R>(
     Some(question(&linear))
 }
 
-/// The squared error that names leave of a model, to first order, as a forward selection finds
-/// them; in a unit of the output's own. `None` if the model cannot be evaluated.
+/// The squared error of a model, to first order, after the names that a forward selection finds; in
+/// a unit of the output. `None` if the model cannot be evaluated.
 pub(crate) fn left_by_names(data: &Prepared, solution: &Solution) -> Option<f64> {
     asked_of(data, solution, |linear| linear.left_by_names())
 }
