@@ -30,7 +30,7 @@ pub struct Autocorrelation {
 }
 
 impl Autocorrelation {
-    /// The autocorrelation of residuals over those rows, which are in ascending order.
+    /// The autocorrelation of residuals over the given rows, which are in ascending order.
     #[must_use]
     pub fn of(data: &Prepared, rows: &[usize], residuals: &[&[f64]]) -> Self {
         let lags = LAGS.min(rows.len() / 4);
@@ -69,7 +69,7 @@ fn white(response: &[f64], stride: usize) -> Vec<f64> {
         .collect()
 }
 
-/// n times the variance of the estimated autocorrelation at each lag, for that true one.
+/// n times the variance of the estimated autocorrelation at each lag, given the true one.
 fn bartlett(rho: &[f64], lags: usize) -> Vec<f64> {
     let reach = rho.len() as isize;
     let at = |lag: isize| rho.get(lag.unsigned_abs()).copied().unwrap_or(0.0);

@@ -38,7 +38,7 @@ struct Sums {
     sum: f64,
 }
 
-/// Bins with about equally many samples each, at most that number of them.
+/// Bins with about equally many samples each, at most the given number of bins.
 ///
 /// `values` and each of the residuals have one entry for each sample, in the order of time.
 #[must_use]

@@ -43,7 +43,7 @@ fn path(data: &Prepared) -> Vec<f64> {
     path
 }
 
-/// Divides the fit rows into parts with a number of blocks each: one part a record if possible.
+/// Divides the fit rows into parts with a number of blocks each: one part per record if possible.
 fn parts(data: &Prepared, path: &[f64]) -> Vec<(Range<usize>, usize)> {
     let rows = &data.split.fit;
     let (Some(first), Some(last)) = (path.first(), path.last()) else {
@@ -162,7 +162,7 @@ fn signed_sums(start: f64, scores: &[Vec<f64>], direction: usize) -> Vec<f64> {
     sums
 }
 
-/// The same test for one score a block.
+/// The same test for one score per block.
 #[must_use]
 pub fn sign_flip_p(scores: &[f64; BLOCKS]) -> f64 {
     flips(&scores.map(|score| vec![score]))

@@ -1,8 +1,8 @@
 //! Spectral density of residuals on the fit segment, and that of the sensor's noise.
 //!
 //! Hann window, one-sided, averaged over bands of equal width in the logarithm of the frequency.
-//! Given as its root, in the output's unit per √Hz: the integral of its square over the frequency
-//! is the variance.
+//! The root of the density is given, in the output's unit per √Hz: the integral of its square over
+//! the frequency is the variance.
 
 use crate::problem::filter::{gain, ZeroPhase};
 use crate::problem::spectrum::power_of_fit;
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 /// Maximum number of bands.
 const BANDS: usize = 140;
-/// Highest frequency, in cut-offs: beyond it the filter leaves a hundredth.
+/// Highest frequency, in cut-offs: beyond it the filter passes less than a hundredth.
 const HIGHEST: f64 = 1.8;
 
 /// Roots of spectral densities.

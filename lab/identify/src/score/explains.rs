@@ -1,9 +1,9 @@
 //! How much of the output the input explains, and whether the output integrates it.
 //!
-//! A fit always reduces the error. Whether there is a model at all is another question:
-//! of the output's variance on the held-out part, how much does the measured *input*
-//! explain, how much do the other channels add, and how much is carried by functions of
-//! nothing measured, such as a tone or a drift? The last kind is never counted as explained.
+//! A fit always reduces the error; that does not show that there is a model. This module divides
+//! the output's variance on the held-out segment: how much does the measured *input* explain, how
+//! much do the other channels add, and how much comes from functions of time alone, such as a tone
+//! or a drift? The last part never counts as explained.
 
 use crate::algebra::least_norm;
 use crate::fit::{Segments, Solution};
@@ -104,15 +104,15 @@ pub fn deviations(data: &Prepared) -> (f64, f64) {
     (own.fit, own.held_out)
 }
 
-/// Whether the output moves more than [`UNLIKE`] times as much on one of fit and held-out
-/// segment as on the other.
+/// Whether the output varies more than [`UNLIKE`] times as much on one segment, fit or held-out, as
+/// on the other.
 #[must_use]
 pub fn segments_differ(data: &Prepared) -> bool {
     let (fit, held_out) = deviations(data);
     fit > UNLIKE * held_out || held_out > UNLIKE * fit
 }
 
-/// The shares on the held-out segment; on both segments together if the output moves
+/// The shares on the held-out segment; on both segments together if the output varies
 /// [`UNLIKE`] times less on the held-out segment than on the fit segment.
 #[must_use]
 pub fn explained(data: &Prepared, solution: &Solution) -> Explained {
@@ -163,8 +163,8 @@ const INTEGRAL_LEAVES: f64 = 0.1;
 /// of the fitted model: a loop that opens with the motion leads, an integral lags.
 const RIVAL_LEAVES: f64 = 0.25;
 
-/// Whether the output follows the time integral of the input instead of the input, as the
-/// angle of a motor follows its voltage.
+/// Whether the output follows the time integral of the input instead of the input itself, as the
+/// angle of a motor follows the integral of its voltage.
 ///
 /// A regression on \[1, t, x, integral of x\] is compared with those on \[1, t, x\] and on
 /// \[1, t, x, rate of x\], and with the fitted model. A single tone cannot tell an integral

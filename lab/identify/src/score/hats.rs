@@ -16,8 +16,8 @@ pub(crate) const HATS: usize = 10;
 /// A direction whose residual share after the model is below this is dropped.
 const APART: f64 = 0.01;
 /// Knots closer than this share of the range are merged. If strokes rest at their ends, the
-/// quantiles crowd there, and a curve that bends within a few thousandths of the range encodes
-/// when the motion rests instead of a position.
+/// quantiles accumulate there, and a curve that bends within a few thousandths of the range encodes
+/// when the motion rests, not a position.
 const CLOSE: f64 = 1e-2;
 
 /// Regression of a residual on a curve over one variable, to first order.

@@ -6,7 +6,7 @@ use crate::fit::Solution;
 use crate::problem::Prepared;
 use nalgebra::{DMatrix, DVector};
 
-/// Number of left-out blocks on which the new model is better, and whether that suffices.
+/// Number of left-out blocks on which the new model is better, and whether this number suffices.
 pub(crate) fn on_blocks(
     data: &Prepared,
     old: &Solution,
@@ -27,7 +27,7 @@ pub(crate) fn on_blocks(
     (better, enough)
 }
 
-/// ln of the old model's loss over the new one's, on each left-out block.
+/// ln of the old model's loss divided by the new model's, on each left-out block.
 pub(crate) fn ratios(data: &Prepared, old: &Solution, new: &Solution) -> Vec<f64> {
     let (before, after) = (left_out(data, old), left_out(data, new));
     let both = before.iter().zip(&after);

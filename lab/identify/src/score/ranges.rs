@@ -1,24 +1,24 @@
-//! Where a motion exceeds the ranges of a model's record.
+//! Quantities of a motion that exceed the ranges of the model's record.
 
 use crate::problem::{Channel, Prepared};
 use bowden::effect::Motion;
 
-/// Ranges further than this share of what the model has seen beyond its ends are listed: two
-/// records of one motion differ by less.
+/// Excesses beyond the model's range are listed from this share of that range on: two records of
+/// one motion differ by less.
 pub(crate) const BEYOND: f64 = 0.05;
 
-/// A range of what the model reads that goes beyond what it has seen.
+/// A quantity that the model reads and whose range exceeds that of the model's record.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Outside {
     /// The input's name, or the channel's.
     pub channel: String,
     /// `position`, `velocity` or `acceleration`.
     pub quantity: &'static str,
-    /// The unit, where the record states one.
+    /// The unit, if the record states one.
     pub unit: Option<String>,
-    /// What the model has seen.
+    /// The range in the model's record.
     pub seen: [f64; 2],
-    /// What this record covers.
+    /// The range in this record.
     pub here: [f64; 2],
     /// Share of this record's samples that lie outside.
     pub share: f64,
@@ -47,7 +47,7 @@ pub(crate) fn range(data: &Prepared, channel: &Channel, rows: &[usize], of: Of) 
     values(data, channel, rows, of).fold(none, |[low, high], v| [low.min(v), high.max(v)])
 }
 
-/// Where a quantity goes beyond what was seen of it, over some rows.
+/// The excess of a quantity beyond its recorded range, over some rows.
 pub(crate) fn beyond(
     data: &Prepared,
     channel: &Channel,

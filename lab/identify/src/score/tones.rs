@@ -1,11 +1,11 @@
-//! A tone: a line in the residual's spectrum, a function of nothing measured.
+//! A tone: a line in the residual's spectrum that depends on no measured signal.
 //!
 //! A peak is compared with the median of the bins around it, since a coloured residual has no
 //! common level (Fisher's g supposes one and rejects on every record). The slope of the filter is
 //! divided out first, so that a line above the cut-off is found too: the filter passes half of
 //! the amplitude there. Lines of the input and their multiples are excluded: a static
-//! non-linearity also produces lines there. A line at a sum or difference of the lines of what moves may
-//! be of that kind too ([`is_combination`]).
+//! non-linearity also produces lines there. A line at a sum or difference of the motion's lines may
+//! also have this cause ([`is_combination`]).
 
 use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
@@ -23,18 +23,18 @@ const LEVEL: f64 = 0.01;
 const AROUND: usize = 25;
 /// Least gain of the filter at a frequency that is searched: up to 1.3 times the cut-off.
 const PASSED: f64 = 0.1;
-/// Multiples of the input's lines that count as its own ...
+/// Multiples of the input's lines that count as lines of the input ...
 const MULTIPLES: usize = 7;
 /// ... this many bins to either side; more of either leaves little to search ...
 const NEAR: f64 = 0.6;
-/// ... and the power from which a line of the input is one, of its strongest.
+/// ... and the least power of a line of the input, as a share of its strongest line.
 const LINE: f64 = 0.01;
-/// Number of the strongest lines of what moves whose sums and differences are looked at ...
+/// Number of the strongest lines of the motion whose sums and differences are considered ...
 const COMBINED: usize = 6;
-/// ... of the highest of these orders, a combination of n lines with their repetitions being of order n,
-/// at which they take ...
+/// ... up to the highest of these orders (a combination of n lines, with repetitions, has order n)
+/// at which they cover ...
 const ORDERS: [i32; 3] = [5, 3, 2];
-/// ... no more than this share of the bins. A choice: a disturbance from outside is doubted as often.
+/// ... no more than this share of the bins. A choice: an external disturbance is doubted as often.
 const TAKEN: f64 = 0.25;
 /// Steps to either side in which the frequency is refined, within one bin.
 const STEPS: i32 = 50;
@@ -100,16 +100,17 @@ fn lines_of(data: &Prepared, channel: &Channel) -> Option<Vec<Line>> {
     power_of_fit(data, &position, hann).map(|power| lines(&power))
 }
 
-/// Whether a term is a tone at a line that the motion itself may make.
+/// Whether a term is a tone at a line that the motion itself may cause.
 pub(crate) fn may_be_of_the_motion(data: &Prepared, term: &FitTerm) -> bool {
     let effect = &term.effect;
     let frequency = effect.shape(0).filter(|_| effect.name() == "tone");
     frequency.is_some_and(|f| is_combination(data, f))
 }
 
-/// Whether a frequency \[Hz\] is a sum or difference of the lines of the input and of what else moves, or
-/// a multiple of one. What is not linear in the motion, as friction is, makes lines there. No search
-/// begins at a multiple, but one that begins beside it may end there.
+/// Whether a frequency \[Hz\] is a sum or difference of the lines of the input and of the other
+/// motions, or a multiple of one line. Effects that are not linear in the motion, such as friction,
+/// cause lines there. No search begins at a multiple, but a search that begins near one may end
+/// there.
 fn is_combination(data: &Prepared, frequency: f64) -> bool {
     let (Some(&first), Some(&last)) = (data.split.fit.first(), data.split.fit.last()) else {
         return false;
@@ -131,8 +132,8 @@ fn is_combination(data: &Prepared, frequency: f64) -> bool {
         || is_near_a_sum(&strongest, highest, place)
 }
 
-/// Whether a place is near a sum or difference of lines, of the highest order at which these take no more
-/// than their share of the bins.
+/// Whether a position is near a sum or difference of lines, of the highest order at which these
+/// cover no more than their share of the bins.
 fn is_near_a_sum(lines: &[f64], highest: usize, place: f64) -> bool {
     let near = |sums: &[f64], place: f64| sums.iter().any(|sum| (place - sum).abs() <= NEAR);
     let mut orders = ORDERS.iter().map(|&order| combinations(lines, order));
@@ -143,8 +144,8 @@ fn is_near_a_sum(lines: &[f64], highest: usize, place: f64) -> bool {
     orders.find(is_few).is_some_and(|sums| near(&sums, place))
 }
 
-/// Places of the sums and differences of lines, up to an order: of the even ones the second alone, since
-/// friction is odd.
+/// Positions of the sums and differences of lines, up to an order. Of the even orders only the
+/// second is included, because friction is odd.
 fn combinations(lines: &[f64], order: i32) -> Vec<f64> {
     let mut sums = vec![(0, 0.0)];
     for line in lines {

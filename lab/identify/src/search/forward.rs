@@ -43,7 +43,7 @@ impl Linear<'_> {
         all
     }
 
-    /// Squared error that a forward selection from the present set leaves, in units of the output's
+    /// Squared error after a forward selection from the present set, in units of the output's
     /// squared scale.
     pub(super) fn left_by_names(&self) -> f64 {
         let all = self.everything();

@@ -47,7 +47,7 @@ fn place(i: usize, j: usize) -> usize {
 /// products is not needed.
 const AT_A_TIME: usize = 64;
 
-/// Appends to the products of one block those of the columns from `old` on with all before them.
+/// Appends to the products of one block the products of the columns from `old` on with all before.
 fn multiply(
     part: &mut Vec<f64>,
     old: usize,
@@ -81,7 +81,7 @@ fn multiply(
     }
 }
 
-/// Root of the squared norm about the mean; of the whole where the column is constant.
+/// Root of the squared norm about the mean; if the column is constant, of the squared norm.
 fn scale_of(column: &Stretch, rows: &[usize]) -> f64 {
     let n = rows.len().max(1) as f64;
     let mean = rows.iter().map(|&i| column[i]).sum::<f64>() / n;
@@ -104,8 +104,7 @@ impl Grams {
         grams
     }
 
-    /// Multiplies what `columns` has beyond those that are known, with each other and with
-    /// the known ones.
+    /// Multiplies the new columns of `columns` with each other and with the known columns.
     pub fn extend(&mut self, columns: &[Arc<Stretch>], rows: &[usize], blocks: &[Range<usize>]) {
         use rayon::prelude::*;
         let (old, size) = (self.size, columns.len());

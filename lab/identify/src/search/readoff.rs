@@ -24,15 +24,15 @@ use crate::score::left_out::on_blocks;
 use crate::score::tones::may_be_of_the_motion;
 use std::sync::Arc;
 
-/// Maximum number of rivals of one name that are refitted.
+/// Maximum number of alternatives to one name that are refitted.
 const RIVALS: usize = 8;
-/// A candidate is refitted if it reaches this share of the rule for rivals to first order.
+/// A candidate is refitted if, to first order, it reaches this share of the rule for alternatives.
 const NEARLY: f64 = 0.95;
-/// Starts of the refit of a rival: its trial shapes and the linear step.
+/// Starts of the refit of an alternative: its trial shapes and the linear step.
 const STARTS: usize = 2;
 
 impl Search<'_> {
-    /// The ledger of the search.
+    /// The results table of the search.
     pub(super) fn ledger(mut self) -> Option<Ledger> {
         let standing = self.last()?;
         let rivals = self.rivals(&standing);
@@ -96,9 +96,9 @@ impl Search<'_> {
         Some(ledger)
     }
 
-    /// Delivers the model that errs least on left-out blocks, or a simpler one that does as well:
-    /// models without the curve are simpler than those with it, and of each kind those with
-    /// fewer names. Later rounds go to `beyond`.
+    /// Delivers the model with the smallest error on left-out blocks, or a simpler one that does as
+    /// well. Models without the curve are simpler than models with it, and within each group those
+    /// with fewer names are simpler. Later rounds go to `beyond`.
     fn deliver(&self, ledger: &mut Ledger) -> Option<()> {
         let count = ledger.rounds.len();
         let curved = match &ledger.unknown {
@@ -209,8 +209,8 @@ impl Search<'_> {
         settle(self.data, &structure, &free, values)
     }
 
-    /// A model's values with the stages that it lacks near the end at which they do nothing: a
-    /// linear term with a gain of zero is a start of its own, a stage is none.
+    /// A model's values, with stages that it does not have set near the bound at which they have no
+    /// effect: for a linear term a gain of zero is a valid start, for a stage it is not.
     fn nearly(&self, last: &Solution, free: &[Free]) -> Vec<f64> {
         let terms = &self.now.structure.terms;
         let is_stage = |role: Role| match role {
@@ -227,7 +227,7 @@ impl Search<'_> {
         free.iter().map(value).collect()
     }
 
-    /// For each name, the candidates that do as well in its place once refitted.
+    /// For each name, the candidates that do as well instead of it once refitted.
     fn rivals(&self, standing: &Standing) -> Vec<Vec<Candidate>> {
         let own = self.declared.structure.terms.len();
         let linear = &standing.linear;
@@ -295,8 +295,8 @@ impl Search<'_> {
 }
 
 impl Search<'_> {
-    /// Other stages of the model that without this one leave as little as this one without them.
-    /// Two stages may share one effect; then each is a rival of the other.
+    /// Other stages of the model whose residual without this one is as small as that of this one
+    /// without them. Two stages may share one effect; then each is an alternative to the other.
     fn stages_instead(&self, context: &Context, index: usize) -> Vec<(Candidate, f64)> {
         let linear = context.linear;
         let terms = &self.now.structure.terms;
@@ -334,7 +334,7 @@ impl Search<'_> {
     }
 }
 
-/// Indices of the terms of a solution in the wanted order; `None` if the sets differ.
+/// Indices of the terms of a solution in the requested order; `None` if the sets differ.
 fn order_of(solution: &Solution, wanted: &[Identity]) -> Option<Vec<usize>> {
     let terms = &solution.structure.terms;
     let mut order: Vec<usize> = Vec::new();
@@ -359,8 +359,8 @@ fn arranged(data: &Prepared, solution: &Solution, order: &[usize]) -> Option<Sol
 }
 
 impl Linear<'_> {
-    /// Order of the terms: the declared ones, then at each step the name that leaves the least
-    /// squared error jointly with those before it.
+    /// Order of the terms: those of the baseline, then at each step the name that gives the least
+    /// squared error together with those before it.
     fn by_weight(&self) -> Vec<usize> {
         let all = self.now.structure.terms.len();
         let mut order: Vec<usize> = (0..self.declared).collect();
@@ -382,7 +382,7 @@ impl Linear<'_> {
     }
 }
 
-/// The final model, to first order and in fact.
+/// The final model, to first order and refitted.
 struct Context<'a, 'b> {
     linear: &'a Linear<'b>,
     full: f64,
@@ -391,10 +391,10 @@ struct Context<'a, 'b> {
 }
 
 impl Context<'_, '_> {
-    /// Candidates of another family or channel that to first order nearly meet the rule for
-    /// rivals, or met it when the name was added, the best of each identity; and the squared
-    /// error without the name. A stage acts on every column, so that its first-order gain is the
-    /// least accurate: all others are refitted in place of a stage.
+    /// Candidates of another family or channel that, to first order, nearly satisfy the rule for
+    /// alternatives or satisfied it when the name was added, the best of each identity; and the
+    /// squared error without the name. A stage acts on every column, so its first-order gain is the
+    /// least accurate: for a stage, all other stages are refitted.
     fn close(&self, kept: &Kept, own: &FitTerm, known: Option<&Entry>) -> (Vec<usize>, f64) {
         let linear = self.linear;
         let swept = linear.without(kept);

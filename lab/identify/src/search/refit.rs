@@ -33,7 +33,7 @@ pub(super) struct Tried {
     pub(super) sse: f64,
 }
 
-/// Squared error and criterion that a search has reached.
+/// Squared error and criterion reached by a search.
 pub(super) struct Priced {
     pub(super) sse: f64,
     pub(super) j: f64,
@@ -225,7 +225,7 @@ impl Linear<'_> {
     }
 }
 
-/// The given values with each of [`HYSTERESES`] in place of their own.
+/// The given values, with each of [`HYSTERESES`] instead of their own hysteresis.
 pub(super) fn other_hystereses<'a>(
     data: &'a Prepared,
     free: &'a [Free],

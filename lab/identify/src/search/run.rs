@@ -25,15 +25,15 @@ pub(super) const FALLEN: f64 = 1e-3;
 const TURNS: usize = 40;
 /// Starts of a refit: the trial shapes, the linear step, and two other hystereses. Without
 /// the last two, once the model has names, a damper's record ends with six names instead of
-/// four and with 7.4 % held out instead of 6.1 %.
+/// four, and with a held-out error of 7.4 % instead of 6.1 %.
 pub(super) const STARTS: usize = 4;
 
-/// What a search remembers of an added member.
+/// The record that a search keeps of an added member.
 pub(super) struct Entry {
     pub(super) identity: Identity,
     /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub(super) p: Option<f64>,
-    /// Names that did as well in its place when it was added.
+    /// Names that did as well instead of it when it was added.
     pub(super) siblings: Vec<Candidate>,
     /// For a curve: reduction of the SSE by the best one or two names over that by the curve.
     pub(super) q: f64,
@@ -61,9 +61,9 @@ pub(super) struct Search<'a> {
     /// Start and length \[s\] of the time budget.
     budget: Option<(Moment, f64)>,
     pub(super) visited: Vec<Vec<Identity>>,
-    /// Sets in which a power law has been tried in the place of named friction.
+    /// Sets in which a power law has been tried instead of named friction.
     pub(super) exchanges: Vec<Vec<Identity>>,
-    /// Sets beside which effects that the hysteresis hides have been tried.
+    /// Sets in which effects that the hysteresis hides have been tried.
     pub(super) uncovered: Vec<Vec<Identity>>,
     failures: usize,
     phase: Phase,
@@ -192,7 +192,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Keeps of a linearisation what the next one has as well.
+    /// Keeps the part of a linearisation that the next one shares.
     fn leave(&mut self, standing: &Standing<'a>) {
         let linear = &standing.linear;
         self.bank.keep(&linear.columns.all, &linear.grams);
@@ -264,8 +264,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// After the last name: first moves to fewer names, then a power law in the place of named
-    /// friction, then what the hysteresis hides, then curves at a lower price.
+    /// After the last name: first moves to fewer names, then a power law instead of named friction,
+    /// then effects that the hysteresis hides, then curves at a lower price.
     fn exhausted(&mut self, standing: &Standing<'a>) -> bool {
         self.failures = 0;
         let names = self.now.structure.terms.len() - self.declared.structure.terms.len();
@@ -289,8 +289,8 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// Refits moves, the best promise first, and skips a move that promises less than another
-    /// has reached. Returns the moves that lower the criterion, the best first.
+    /// Refits moves, the most promising first, and skips a move that promises less than another
+    /// move has reached. Returns the moves that lower the criterion, the best first.
     fn refitted(&mut self, standing: &Standing<'a>, moves: &[Move], j: f64) -> Vec<Tried> {
         let linear = &standing.linear;
         let mut tried: Vec<Tried> = Vec::new();
@@ -328,7 +328,8 @@ impl<'a> Search<'a> {
         tried
     }
 
-    /// Puts a refitted move through the gates; returns whether it became the present model.
+    /// Applies the acceptance tests to a refitted move; returns whether it became the present
+    /// model.
     fn accepted(&mut self, standing: &Standing<'a>, best: &Tried, tried: &[Tried]) -> bool {
         let linear = &standing.linear;
         let free = best.structure.free(self.data);
@@ -372,7 +373,7 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// Makes a model with a name that no move proposed the present one.
+    /// Adopts a model with a name that no move proposed.
     pub(super) fn named(&mut self, identity: Identity, next: Solution, p: f64) {
         self.entries.push(Entry {
             identity,
@@ -383,7 +384,7 @@ impl<'a> Search<'a> {
         self.goes_on_with(next);
     }
 
-    /// Makes a model the present one.
+    /// Adopts a model as the present one.
     fn goes_on_with(&mut self, next: Solution) {
         // A name that was rejected jointly with another model may pass with this one.
         self.rejected.clear();
@@ -391,7 +392,7 @@ impl<'a> Search<'a> {
         self.reached.push(Arc::clone(&self.now));
     }
 
-    /// Whether nothing but noise is left by a model.
+    /// Whether the residual of a model is only noise.
     pub(super) fn is_at_noise(&self, model: &Solution) -> bool {
         super::is_at_noise(self.data, model)
     }
@@ -424,7 +425,7 @@ fn chosen(tried: &[Tried]) -> Option<&Tried> {
         .min_by(|a, b| a.rank().cmp(&b.rank()).then(a.j.total_cmp(&b.j)))
 }
 
-/// Names that were refitted in place of an added one and did as well.
+/// Names that were refitted instead of an added name and did as well.
 fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> Vec<Candidate> {
     let linear = &standing.linear;
     let as_good = |t: &&Tried| {
@@ -442,7 +443,7 @@ fn siblings(standing: &Standing, best: &Tried, tried: &[Tried], own: usize) -> V
     tried.iter().filter(as_good).filter_map(instead).collect()
 }
 
-/// Acceptance: the stop-check segment, which no search has seen, and the left-out blocks.
+/// Acceptance tests: the selection segment, which no search has used, and the left-out blocks.
 pub(super) fn gates(
     data: &Prepared,
     old: &Solution,
@@ -466,7 +467,7 @@ pub(super) fn gates(
 }
 
 impl Linear<'_> {
-    /// What the best one or two names take, of what a curve takes, to first order.
+    /// Reduction by the best one or two names, as a share of that by a curve, to first order.
     fn explained_by_names(&self, one: &Move, curve: usize) -> f64 {
         let mut swept = self.without(&one.kept);
         for &g in one.added.iter().filter(|&&g| g != curve) {

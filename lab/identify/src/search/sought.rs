@@ -20,7 +20,7 @@ pub(super) struct Sought {
     pub(super) identities: Vec<Identity>,
     /// Number of columns in the price of each.
     freedoms: Vec<usize>,
-    /// The group of each; `None` for a name that the model already has.
+    /// The group of each candidate; `None` for a name that the model already has.
     pub(super) groups: Vec<Option<usize>>,
 }
 

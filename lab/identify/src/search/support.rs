@@ -33,10 +33,11 @@ const RIDGE: f64 = 1e-3;
 /// The mechanisms that a record supports in addition to a baseline model. `None` if the search added
 /// nothing, or if the model cannot be evaluated.
 ///
-/// Where the last model of the search leaves noise alone, its terms tell the mechanisms, which are
-/// compared as they are. Otherwise the mechanisms are found before any term: one after the
-/// other is added while the squared error on left-out blocks falls by a factor of 1.25. The
-/// hysteresis is that of the baseline or of the last model, whichever errs less.
+/// If the residual of the last model of the search is only noise, its terms identify the
+/// mechanisms, which are compared as they are. Otherwise the mechanisms are found before any term:
+/// they are added one after another while the squared error on left-out blocks falls by a factor of
+/// 1.25. The hysteresis is that of the baseline or of the last model, whichever has the smaller
+/// error.
 pub(super) fn supported(data: &Prepared, ledger: &Ledger) -> Option<Supported> {
     let own = ledger.mechanisms(data);
     if own.is_empty() {
@@ -91,7 +92,7 @@ struct Found {
 }
 
 impl Found {
-    /// One that its terms tell, with what is known of it where it was found as well.
+    /// A mechanism that its terms identify, with its results if it was also found without terms.
     fn given(mechanism: Mechanism, found: &mut Vec<Self>) -> Self {
         let known = found.iter().position(|own| own.mechanism == mechanism);
         known.map_or(
@@ -109,7 +110,7 @@ fn set_of(found: &[Found]) -> Vec<Mechanism> {
     found.iter().map(|one| one.mechanism).collect()
 }
 
-/// What a column of a mechanism reads.
+/// The source that a column of a mechanism reads.
 struct Column {
     mechanism: Mechanism,
     source: Source,
@@ -118,9 +119,9 @@ struct Column {
 /// All columns of one linearisation, and their products on the halves.
 struct Comparison<'a> {
     linear: &'a Linear<'a>,
-    /// Of each column what it belongs to; `None` for those of the baseline model.
+    /// The mechanism that each column belongs to; `None` for columns of the baseline model.
     columns: Vec<Option<Column>>,
-    /// Places of the columns and of the target, the last one, in the linearisation.
+    /// Positions in the linearisation of the columns and, last, of the target.
     places: Vec<usize>,
     /// Precision of each coefficient on a record of which all rows are fitted.
     precision: Vec<f64>,
@@ -249,8 +250,8 @@ impl<'a> Comparison<'a> {
         mean_log(&self.errors(|column| set.contains(&column.mechanism)))
     }
 
-    /// Forward selection of mechanisms, each followed by a backward one. What only time explains
-    /// comes last.
+    /// Forward selection of mechanisms, each step followed by a backward one. Mechanisms that are
+    /// functions of time alone come last.
     fn found(&self) -> Vec<Found> {
         let mut found = Vec::new();
         let mut now = self.error(&[]);
@@ -264,7 +265,7 @@ impl<'a> Comparison<'a> {
         found
     }
 
-    /// The mechanism that errs least together with a set, if it is worth adding.
+    /// The mechanism with the smallest error together with a set, if it is worth adding.
     fn next(&self, set: &[Mechanism], now: f64, pool: &[Mechanism]) -> Option<(f64, Found)> {
         let is_new = |m: &&Mechanism| {
             let is_own = |column: &Column| column.mechanism == **m;
@@ -288,7 +289,7 @@ impl<'a> Comparison<'a> {
         })
     }
 
-    /// Removes those before the last one that are no longer worth it; returns the error.
+    /// Removes mechanisms before the last one that are no longer worth keeping; returns the error.
     fn without_needless(&self, found: &mut Vec<Found>, mut now: f64) -> f64 {
         while found.len() > 1 {
             let without = |k: usize| {
@@ -341,7 +342,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// The channel with whose columns alone a mechanism of a set errs least.
+    /// The channel whose columns alone give a mechanism of a set the smallest error.
     fn source(&self, set: &[Mechanism], mechanism: Mechanism) -> Source {
         if mechanism == Mechanism::HysteresisShape {
             return Source::Input;
@@ -370,7 +371,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// What the columns of a mechanism add, with the residual, over its variable.
+    /// The contribution of a mechanism's columns plus the residual, over the mechanism's variable.
     fn curve(&self, weights: &DVector<f64>, mechanism: Mechanism, variable: Variable) -> Vec<Bin> {
         let (linear, seen) = (self.linear, self.linear.seen);
         let Some(values) = variable.values(seen, &linear.now.eta) else {
@@ -405,8 +406,8 @@ fn mean_log(errors: &[f64]) -> f64 {
     errors.iter().map(|e| e.ln()).sum::<f64>() / errors.len().max(1) as f64
 }
 
-/// Share of the baseline's squared error by which an error falls from `before` to `after`, none of
-/// which counts for more than the baseline.
+/// Reduction of an error from `before` to `after`, as a share of the baseline's squared error. Both
+/// errors are limited to that of the baseline.
 fn share(before: &[f64], after: &[f64], baseline: &[f64]) -> Share {
     let capped = |errors: &[f64]| -> Vec<f64> {
         let pairs = errors.iter().zip(baseline);

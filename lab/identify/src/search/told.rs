@@ -1,4 +1,4 @@
-//! What a search says of the model that it has reached.
+//! Progress messages of a search on the models that it reaches.
 
 use crate::fit::Solution;
 use crate::problem::Prepared;
