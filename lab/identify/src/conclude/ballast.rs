@@ -11,20 +11,20 @@ use crate::model::{Table, Variable};
 use crate::problem::Prepared;
 use bowden::model::Source;
 
-/// Largest share of a hysteresis' part that spring and offset cannot imitate, for it to be
-/// ballast. A choice: a loop that shows in a plot has more.
+/// A hysteresis is redundant if spring and offset imitate all but this share of its part. A choice:
+/// a loop that is visible in a plot has more.
 const NOT_IMITATED: f64 = 0.01;
 
-/// What a hysteresis is beside spring and offset.
+/// The part of a hysteresis, and how much of it spring and offset cannot imitate.
 pub(super) struct Part {
-    /// Its root mean square on the fit segment, in standard deviations of the output there.
+    /// RMS of the part on the fit segment, in standard deviations of the output there.
     size: f64,
-    /// The same of what spring and offset cannot imitate of it.
+    /// The same for the remainder that spring and offset cannot imitate.
     pub(super) own: f64,
 }
 
 impl Part {
-    /// `None` without hysteresis, and where each file has gains of its own.
+    /// `None` without hysteresis, and if each file has its own gains.
     pub(super) fn of(data: &Prepared, solution: &Solution) -> Option<Self> {
         let structure = &solution.structure;
         if !structure.hysteresis || structure.own_gains > 0 {
@@ -46,19 +46,19 @@ impl Part {
         })
     }
 
-    /// Whether it is larger than the output, and spring and offset cancel nearly all of it. The
-    /// gains of a smaller part do no harm.
+    /// Whether the part is larger than the output, and spring and offset cancel nearly all of it.
+    /// The gains of a smaller part are harmless.
     pub(super) fn is_cancelled(&self) -> bool {
         self.size > 1.0 && self.own < NOT_IMITATED * self.size
     }
 
-    /// Whether next to nothing of the output is its own.
+    /// Whether almost none of the output is due to the hysteresis alone.
     pub(super) fn is_ballast(&self) -> bool {
         self.is_cancelled() && self.own < NOT_IMITATED
     }
 }
 
-/// Whether a model has parts that go with its hysteresis.
+/// Whether a model has parts that must be removed with its hysteresis.
 pub(super) fn has_parts_of_hysteresis(solution: &Solution) -> bool {
     let structure = &solution.structure;
     structure.table.as_ref().is_some_and(is_over_eta) || structure.terms.iter().any(goes_with)
@@ -73,7 +73,7 @@ fn goes_with(term: &FitTerm) -> bool {
     term.effect.reads_eta() || term.effect.is_input_stage()
 }
 
-/// The model as a line, gain and offset, without what reads the hysteresis state.
+/// The model as a line (gain and offset), without the terms that read the hysteresis state.
 pub(super) fn without_hysteresis(data: &Prepared, full: &Solution) -> Option<Solution> {
     let mut structure = full.structure.clone();
     structure.hysteresis = false;

@@ -4,16 +4,16 @@ use crate::fit::Solution;
 use crate::problem::{Piece, Prepared};
 use serde::Serialize;
 
-/// Errors on one file; `None` for a segment in which the file has no part.
+/// Errors on one file; `None` for a segment that contains no part of the file.
 #[derive(Debug, Clone, Serialize)]
 pub struct FileErrors {
     /// The file.
     pub path: String,
-    /// On its part of the fit segment.
+    /// Error on its part of the fit segment.
     pub fit: Option<f64>,
-    /// On its part of the stop-check.
+    /// Error on its part of the selection segment.
     pub selection: Option<f64>,
-    /// On its part of what is held out.
+    /// Error on its part of the held-out segment.
     pub held_out: Option<f64>,
 }
 
@@ -60,7 +60,7 @@ pub fn rmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErro
     by_file(data, |rows| rms(&solution.residual, rows, 0.0))
 }
 
-/// The same as shares of the filtered output's standard deviation there.
+/// These errors as shares of the standard deviation of the filtered output there.
 #[must_use]
 pub fn nrmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErrors>> {
     by_file(data, |rows| {
@@ -69,18 +69,18 @@ pub fn nrmse_by_file(data: &Prepared, solution: &Solution) -> Option<Vec<FileErr
     })
 }
 
-/// What a term removes in a file.
+/// The reduction of the squared error by a term in a file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FileShare {
     /// The file.
     pub path: String,
-    /// Share of the squared error on its part of the fit segment that the term removes; below zero
-    /// where it adds to the error.
+    /// Share of the squared error on its part of the fit segment that the term removes; negative if
+    /// the term increases the error.
     pub share: f64,
 }
 
-/// What one model removes of the squared error of another one, in each file of which the fit sees
-/// something; empty for a single record.
+/// The reduction of one model's squared error by another model, in each file that is part of the
+/// fit segment; empty for a single record.
 #[must_use]
 pub fn removed(data: &Prepared, before: &Solution, after: &Solution) -> Vec<FileShare> {
     let of = |solution| rmse_by_file(data, solution).unwrap_or_default();
@@ -100,11 +100,11 @@ pub struct Worse {
     pub path: String,
     /// Held-out error of the baseline model, as a share of the output's standard deviation.
     pub before: f64,
-    /// The same of the final model.
+    /// Held-out error of the final model, likewise.
     pub after: f64,
 }
 
-/// The files on which the final model is worse than the declared one; of a file that has no
+/// The files on which the final model is worse than the baseline model; for a file without a
 /// held-out part the fit segment is compared.
 #[must_use]
 pub fn worse(data: &Prepared, declared: &Solution, last: &Solution) -> Vec<Worse> {

@@ -1,4 +1,4 @@
-//! What only the held-out part shows: a rig that has changed, or clocks that differ.
+//! Findings that only the held-out segment shows: a changed rig, or clocks that differ.
 
 use super::errors::RISES;
 use super::final_fit::FinalFit;
@@ -14,16 +14,16 @@ use bowden::effect::Family;
 use bowden::model::Source;
 
 /// A held-out error of this share of the output's standard deviation, and of this multiple of
-/// the error on the fit segment, is that of another rig than the one that was fitted. Both are a
-/// choice: of the ten measured rows none has more than 8 % or 2.2 times.
+/// the error on the fit segment, means that the rig differs from the one that was fitted. Both are
+/// choices: of the ten measured rows none has more than 8 % or 2.2 times.
 const OTHER_RIG: (f64, f64) = (0.1, 4.0);
 /// The change begins where this share of the held-out squared error lies behind it ...
 const BEFORE: f64 = 0.01;
 /// ... and is told if that is later than this share of the held-out part.
 const LATE: f64 = 0.05;
 
-/// Where the held-out part goes beyond the positions of the fit segment, and the model errs more than
-/// there.
+/// The positions of the held-out segment beyond those of the fit segment, if the model's error is
+/// larger there.
 pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Vec<Finding> {
     if done.rmse.held_out <= f64::max(RISES * done.rmse.fit, AT_FLOOR * data.noise_floor) {
         return Vec::new();
@@ -46,20 +46,20 @@ pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Vec<Finding> {
         .collect()
 }
 
-/// The terms of a channel stand for the output where their sum has this share of its standard
-/// deviation, although the baseline model errs by less than the other one. Both are a choice: a
-/// term that is there for what the baseline model lacks is about as large as that.
+/// The terms of a channel replace the output if their sum has the first share of its standard
+/// deviation, although the error of the baseline model is below the second. Both are choices: a
+/// term for a missing effect is only about as large as the error of the baseline model.
 const STANDS_FOR: (f64, f64) = (0.9, 0.3);
 
-/// Multiple of the noise floor from which the sentence says that motion was not seen.
+/// Multiple of the noise floor above which the sentence says that motion was not measured.
 const UNSEEN: f64 = 3.0;
 
-/// Share of the error on a file that was held out as a whole which another gain and offset may
-/// leave, to be told as its cause. A choice.
+/// For a file that is held out as a whole: another gain and offset are reported as the cause of its
+/// error if they leave at most this share of it. A choice.
 const LINE_LEAVES: f64 = 0.25;
 
-/// The error on the fit segment and the held-out one, as shares of the output's standard
-/// deviation on each, where the held-out one is that of another rig.
+/// The errors on the fit and on the held-out segment, as shares of the output's standard deviation
+/// on each, if the held-out error means another rig.
 pub(super) fn other_rig(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
     let error = done.rmse.normalised(data, &data.target);
     let (least, times) = OTHER_RIG;
@@ -67,7 +67,7 @@ pub(super) fn other_rig(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> 
         .then_some((error.fit, error.held_out))
 }
 
-/// The time \[s\] from which on the held-out error is large, if that is within the held-out part.
+/// The time \[s\] after which the held-out error is large, if it is within the held-out segment.
 pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
     let rows = &data.split.held_out;
     let square = |row: &usize| done.solution.residual[*row].powi(2);
@@ -80,8 +80,8 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
     (first as f64 > LATE * rows.len() as f64).then(|| data.moment(rows[first]))
 }
 
-/// A creep that starts at an end of what it may start from: what relaxes there
-/// is no motion of the input, and may be the sensor itself.
+/// A creep whose initial state lies on a bound of its range: the relaxation does not come from a
+/// motion of the input, and may come from the sensor itself.
 pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Finding> {
     let terms = &solution.structure.terms;
     let ends = solution.free.iter().zip(&solution.on_bound);
@@ -97,12 +97,13 @@ pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Findi
     })
 }
 
-/// Whether a file that was held out as a whole is not described by the model of the others.
+/// Whether the model of the other files fails to describe a file that was held out as a whole.
 pub(super) fn is_other_file(data: &Prepared, done: &FinalFit) -> bool {
     data.pieces.last().is_some_and(|piece| !piece.fitted) && other_rig(data, done).is_some()
 }
 
-/// A file that was held out as a whole and differs from the others by gain and offset alone, or in more.
+/// A file that was held out as a whole and differs from the others, by gain and offset alone or
+/// more.
 pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let file = data.pieces.last().filter(|_| is_other_file(data, done))?;
     let (prediction, target) = (&done.solution.prediction, &data.target);
@@ -126,8 +127,8 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     })
 }
 
-/// The channel that stands for the output in the delivered model: its terms make up nearly
-/// all of the output, although the baseline model explains nearly all of it by the input.
+/// The channel that replaces the output in the delivered model: its terms make up nearly all of the
+/// output, although the baseline model explains nearly all of the output by the input.
 pub(super) fn stands_for_output<'a>(
     data: &'a Prepared,
     declared: &Solution,
@@ -139,11 +140,11 @@ pub(super) fn stands_for_output<'a>(
     (error < nearly_all && share > most).then(|| data.channels[channel].name.as_str())
 }
 
-/// A transmission whose part has less than this share of the output's standard deviation transmits
-/// nothing. A choice.
+/// A transmission whose part is below this share of the output's standard deviation is taken to
+/// transmit nothing. A choice.
 const TRANSMITS: f64 = 0.05;
 
-/// The channel that nearly all of the output is made of in a model that does not read its input.
+/// The channel that gives nearly all of the output in a model that does not read its input.
 pub(super) fn made_without_input<'a>(data: &'a Prepared, done: &Solution) -> Option<&'a str> {
     if !done.structure.hysteresis || done.structure.own_gains > 0 {
         return None;
@@ -157,8 +158,8 @@ pub(super) fn made_without_input<'a>(data: &'a Prepared, done: &Solution) -> Opt
     (!transmits && share > STANDS_FOR.0).then(|| data.channels[channel].name.as_str())
 }
 
-/// The channel whose terms make up most of the held-out output, and the share that their standard
-/// deviation has of the output's.
+/// The channel whose terms make up most of the held-out output, and the ratio of their standard
+/// deviation to the output's.
 fn made_of_channel(data: &Prepared, done: &Solution) -> Option<(f64, usize)> {
     let terms = done.structure.terms.iter().filter(|t| t.is_linear());
     let gains = done.columns.iter().zip(&done.gains);
@@ -179,7 +180,7 @@ fn made_of_channel(data: &Prepared, done: &Solution) -> Option<(f64, usize)> {
     all.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// A displacement that seems to be a velocity.
+/// A displacement that appears to be a velocity.
 pub(super) fn velocity(data: &Prepared) -> Option<Finding> {
     let input = &data.input;
     let is = data.mode == Mode::Displacement && is_velocity(&input.name, input.unit.as_deref());
@@ -188,7 +189,7 @@ pub(super) fn velocity(data: &Prepared) -> Option<Finding> {
     })
 }
 
-/// Motion of the input that is not known, where more than noise is left.
+/// Motion of the input that was not measured, if the residual exceeds the noise.
 pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let is_left = data.noise_floor > 0.0 && done.rmse.fit > UNSEEN * data.noise_floor;
     let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);

@@ -11,14 +11,14 @@ use crate::problem::{Alteration, Prepared};
 use crate::search::left_by_names;
 use crate::search::policy::AT_FLOOR;
 
-/// More ways to alter a file than this are not tried. Each costs as much as one linearisation of
-/// the baseline model. Four files with two channels have twelve.
+/// Maximum number of alterations that are tried. Each costs as much as one linearisation of the
+/// baseline model. Four files with two channels have twelve.
 const MOST_WAYS: usize = 12;
-/// With an alteration names leave to first order at most this share of the squared error that they
-/// leave without: then it is searched with.
+/// A search with an alteration is run only if names, to first order, then leave at most this share
+/// of the squared error that they leave without it.
 const PROMISED: f64 = 0.8;
-/// And the search then ends with at most this share of the error, and with no more names. Both
-/// are a choice.
+/// The search must then end with at most this share of the error, and with no more names. Both are
+/// choices.
 const KEPT: f64 = 0.8;
 
 /// The ways in which one channel of one file may differ.
@@ -42,8 +42,8 @@ fn ways(data: &Prepared) -> Vec<(usize, Alteration)> {
         .collect()
 }
 
-/// The channel of one file that was logged otherwise, if the model leaves more than noise and
-/// much less once that is mended. `search` closes the loop on the mended files.
+/// The channel that was logged differently in one file, if the residual exceeds the noise and is
+/// much smaller after the correction. `search` runs the identification on the corrected files.
 pub(crate) fn channel_apart(
     data: &Prepared,
     ledger: &Ledger,

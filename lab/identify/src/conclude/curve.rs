@@ -17,7 +17,7 @@ pub struct Knot {
 
 /// The table of a model as a curve; empty where it has none.
 ///
-/// What the rest of the model can do as well, a constant first of all, is no part of it.
+/// The curve excludes whatever the rest of the model can represent, above all a constant.
 #[must_use]
 pub fn curve(data: &Prepared, solution: &Solution) -> Vec<Knot> {
     let Some(table) = &solution.structure.table else {

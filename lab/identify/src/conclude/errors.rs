@@ -7,21 +7,22 @@ use crate::ledger::{Ledger, Round};
 use crate::problem::Prepared;
 use crate::search::policy::AT_FLOOR;
 
-/// A held-out error rises where it is more than this many times the one before: a
-/// difference of less than a twentieth does not show in two digits.
+/// A held-out error counts as raised if it exceeds the previous one by more than this factor: a
+/// difference of less than a twentieth is not visible in two digits.
 pub const RISES: f64 = 1.05;
 
-/// A model that misses this share of the output's standard deviation is a poor one. A choice.
+/// A model whose error is this share of the output's standard deviation is poor. A choice.
 pub const POOR: f64 = 0.2;
 
-/// By how much the delivered model's held-out error exceeds that of the declared one.
+/// Ratio of the delivered model's held-out error to that of the baseline model.
 #[must_use]
 pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
     done.rmse.held_out / ledger.declared.rmse.held_out.max(f64::MIN_POSITIVE)
 }
 
-/// Whether the delivered model errs more on held-out data than the declared one. Where nothing was
-/// added both are one model, fitted on more data: the difference is the scatter of a fit.
+/// Whether the delivered model's error on held-out data exceeds that of the baseline model. If
+/// nothing was added, both are one model, fitted to more data: the difference is scatter of the
+/// fit.
 pub(super) fn is_worse(ledger: &Ledger, done: &FinalFit) -> bool {
     let is_another =
         !ledger.rounds.is_empty() || ledger.unknown.is_some() || done.without_hysteresis.is_some();
@@ -38,38 +39,38 @@ pub(super) fn missed(data: &Prepared, done: &FinalFit) -> f64 {
     done.rmse.normalised(data, &data.target).held_out
 }
 
-/// A model that misses much of the output, and more than noise.
+/// A model whose error is a large part of the output, and exceeds the noise.
 pub(super) fn poor(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let error = missed(data, done);
     let is_poor = error >= POOR && !floors(data, done).is_some_and(|errors| is_noise(data, errors));
     is_poor.then_some(Finding::PoorModel { error })
 }
 
-/// Whether a round raises the held-out error. The held-out part decides nothing: this is
-/// told, not acted upon.
+/// Whether a round raises the held-out error. The held-out segment decides nothing: the result is
+/// reported, not used.
 #[must_use]
 pub fn raises(round: &Round) -> bool {
     // A hundredth is less than the last digit that is printed.
     round.after.held_out > 1.01 * round.before.held_out
 }
 
-/// How many of the first rounds lower the held-out error before one raises it.
+/// Number of leading rounds that lower the held-out error before one raises it.
 #[must_use]
 pub fn falls_up_to(ledger: &Ledger) -> usize {
     let rounds = ledger.rounds.iter();
     rounds.take_while(|round| !raises(round)).count()
 }
 
-/// Fit and held-out error in multiples of the noise floor; `None` where the record has no
-/// estimate of it.
+/// Fit and held-out error in multiples of the noise floor; `None` if the record has no estimate of
+/// the floor.
 pub(super) fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
     let (fit, held_out) = (data.noise_floor, data.held_out_floor);
     let are_known = fit > 0.0 && held_out > 0.0;
     are_known.then(|| (done.rmse.fit / fit, done.rmse.held_out / held_out))
 }
 
-/// Of noise alone the rms over a held-out part exceeds this many of its standard deviations in one
-/// record of twenty.
+/// For pure noise, the RMS over a held-out segment exceeds this many of its standard deviations in
+/// one record of twenty.
 const SCATTER: f64 = 1.645;
 
 /// Whether the errors, in multiples of the noise floor, are noise. Nothing was fitted to the
@@ -102,7 +103,7 @@ pub(super) fn before_after(data: &Prepared, ledger: &Ledger, done: &FinalFit) ->
     (held_out(&ledger.declared.rmse), held_out(&done.rmse))
 }
 
-/// The names in the order in which they came.
+/// The names in the order in which they were added.
 pub(super) fn names(ledger: &Ledger, done: &FinalFit) -> Vec<String> {
     ledger.rounds.iter().map(|r| done.title_of(r)).collect()
 }

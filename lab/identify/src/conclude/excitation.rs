@@ -8,7 +8,7 @@ use crate::model::turns;
 use crate::problem::{Piece, Prepared};
 use crate::score::ranges::BEYOND;
 
-/// How often the input turns back on the fit segment, by more than a twentieth of its range.
+/// Number of reversals of the input on the fit segment, by more than a twentieth of its range.
 fn reversals(data: &Prepared) -> usize {
     let back = BEYOND * 2.0 * data.input.reach;
     let of = |piece: &Piece| match rows_of(piece, &data.split.fit) {
@@ -23,8 +23,9 @@ fn reversals(data: &Prepared) -> usize {
     data.pieces.iter().map(of).sum()
 }
 
-/// Why a record of fewer than two reversals shows neither sigma nor n: in one stroke a sharper knee is
-/// another rho, and the branch of unloading is not there. `None` where there are more.
+/// Why a record with fewer than two reversals determines neither sigma nor n: in a single stroke a
+/// sharper knee is equivalent to another rho, and the unloading branch is missing. `None` if there
+/// are more reversals.
 pub(super) fn without_reversals(data: &Prepared) -> Option<String> {
     (reversals(data) < 2).then(|| {
         format!(
@@ -34,10 +35,10 @@ pub(super) fn without_reversals(data: &Prepared) -> Option<String> {
     })
 }
 
-/// What would show a linear gain of the transmission.
+/// The motion that would identify a linear gain of the transmission.
 pub(crate) const TRANSMISSION: &str = "full strokes past the knee, in both directions";
 
-/// What would show a non-linear parameter.
+/// The motion that would identify a non-linear parameter.
 pub(crate) fn of_role(solution: &Solution, role: Role) -> &'static str {
     let own = |term: TermId| {
         let term = solution.structure.terms.find(term);

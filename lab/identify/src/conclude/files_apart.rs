@@ -10,8 +10,8 @@ use crate::ledger::{FileApart, Ledger, RigsApart};
 use crate::model::structure::Structure;
 use crate::problem::{Piece, Prepared};
 
-/// Files are of several configurations if gains of their own reduce the error of the declared
-/// model below this share.
+/// Files belong to several configurations if separate gains reduce the error of the baseline model
+/// below this share.
 pub(crate) const OTHER_CONFIGURATION: f64 = 0.5;
 /// The gains of another file describe a file that errs by at most this share of its output's
 /// standard deviation with them ...
@@ -21,10 +21,10 @@ const LINE_LEAVES: f64 = 0.25;
 /// ... and of its standard deviation: what the model does not describe at all has no gain. All
 /// three are a choice.
 const LINE_ERROR: f64 = 0.5;
-/// Gains that differ by less than this are one gain. A choice: sensors are calibrated to that.
+/// Gains that differ by less than this count as equal. A choice: sensors are calibrated to that.
 const SAME_GAIN: f64 = 0.05;
 
-/// The baseline model with gains of its own for each file; `None` without hysteresis.
+/// The baseline model with separate gains for each file; `None` without hysteresis.
 pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Solution> {
     if !declared.structure.hysteresis {
         return None;
@@ -36,18 +36,18 @@ pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Sol
     fit(data, &structure, None, 0.0)
 }
 
-/// A file beside the gains of another one.
+/// How a file relates to the gains of another file.
 enum Beside {
-    /// They describe it, but for an offset.
+    /// The gains describe the file, except for an offset.
     Same,
-    /// Another gain describes it.
+    /// Another gain describes the file.
     Apart(FileApart),
-    /// Nothing of that kind.
+    /// Neither describes the file.
     Other,
 }
 
-/// Where gains of their own for each file, those of `own`, make the baseline model better than all
-/// that was added to it: the files that have another gain, or that they are not of one rig.
+/// If separate gains for each file, those of `own`, improve the baseline model more than all added
+/// terms: the files that have another gain, or the finding that the files are not from one rig.
 pub(crate) fn judge_files(
     data: &Prepared,
     own: Option<&Solution>,
@@ -71,15 +71,15 @@ pub(crate) fn judge_files(
     ledger.rigs_apart = ledger.apart.is_empty().then_some(rigs);
 }
 
-/// Whether a gain is so far from one that it is a unit, and no rig that has changed: beyond a factor
-/// of two. A choice.
+/// Whether a gain is so far from one that the unit must differ, not the rig: beyond a factor of
+/// two. A choice.
 pub(crate) fn is_far(gain: f64) -> bool {
     !(0.5..=2.0).contains(&gain)
 }
 
-/// The files with a gain far from that of the others, where gains of their own halve the error as
-/// a share of each file's output: in the squared error of all, a file in a thousandth of the unit is
-/// everything, and what is added to describe that may describe no other file.
+/// The files whose gain is far from that of the others, if separate gains halve the error as a
+/// share of each file's output. The common squared error is not used: a file in a thousandth of the
+/// unit would dominate it, and a term added for that file may describe no other file.
 fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart> {
     let share = |solution: &Solution| {
         let files = nrmse_by_file(data, solution)?;
@@ -97,13 +97,13 @@ fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart>
     apart
 }
 
-/// Files that are not of one rig.
+/// Files that are not from one rig.
 pub(super) fn several_rigs(ledger: &Ledger) -> Option<Finding> {
     let RigsApart { together, own } = ledger.rigs_apart?;
     Some(Finding::FilesOfSeveralRigs { together, own })
 }
 
-/// Files in which the output is another multiple.
+/// Files in which the output has another gain.
 pub(super) fn files_scaled(data: &Prepared, ledger: &Ledger) -> Option<Finding> {
     (!ledger.apart.is_empty()).then(|| Finding::FilesScaled {
         files: ledger.apart.clone(),
@@ -143,7 +143,7 @@ fn files_apart(data: &Prepared, own: &Solution) -> Vec<FileApart> {
     best.map_or_else(Vec::new, |(_, apart)| apart)
 }
 
-/// How the output of a file goes with what the gains of another one say.
+/// How the output of a file relates to the prediction with the gains of another file.
 fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
     let rows = rows_of(&data.pieces[file], &data.split.fit);
     let shared = own.structure.base()..own.gains.len();
@@ -186,11 +186,11 @@ fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
     }
 }
 
-/// A step of the pretension this near to the beginning of a file is its beginning, as a share of
-/// the file's length. A choice.
+/// A preload step within this distance of the beginning of a file counts as its beginning, as a
+/// share of the file's length. A choice.
 const AT_THE_BEGINNING: f64 = 0.01;
 
-/// A pretension that steps where a file begins.
+/// A preload step at the beginning of a file.
 pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<Finding> {
     let steps = done.structure.terms.iter().filter(|t| t.has_moment());
     let moments: Vec<f64> = steps.filter_map(|t| t.effect.shape(0)).collect();
