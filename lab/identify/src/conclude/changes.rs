@@ -19,7 +19,7 @@ use bowden::model::Source;
 const OTHER_RIG: (f64, f64) = (0.1, 4.0);
 /// The change begins where this share of the held-out squared error lies behind it ...
 const BEFORE: f64 = 0.01;
-/// ... and is told if that is later than this share of the held-out part.
+/// ... and is reported if this time is later than this share of the held-out segment.
 const LATE: f64 = 0.05;
 
 /// The positions of the held-out segment beyond those of the fit segment, if the model's error is

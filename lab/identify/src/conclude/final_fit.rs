@@ -1,4 +1,4 @@
-//! The final model: the result of the search, with parameters from all data that are not held out.
+//! The final model: the result of the search, with parameters fitted to all data not held out.
 //!
 //! During the search the selection segment tests each model, so no parameter may be fitted to it.
 //! After the search it is data like the rest: a quarter more of them, next to the held-out segment.
@@ -16,30 +16,30 @@ use crate::search::policy::LEAST;
 /// The model that is delivered.
 #[derive(Debug, Clone)]
 pub struct FinalFit {
-    /// The record, with all that the parameters have seen as its fit segment.
+    /// The record; its fit segment contains all data that the parameters were fitted to.
     pub data: Prepared,
-    /// The model there: for its parameters, their intervals, and what it is exported as.
+    /// The model on this record: the source of the parameters, their intervals and the export.
     pub solution: Solution,
-    /// Its errors on the segments that the loop had: only `held_out` is of unseen data.
+    /// Its errors on the segments of the search: only `held_out` is on unseen data.
     pub rmse: Segments,
-    /// Whether the parameters have seen the stop-check segment.
+    /// Whether the parameters were also fitted to the selection segment.
     pub refitted: bool,
-    /// The held-out error with the hysteresis, where that was ballast and is left out.
+    /// The held-out error with the hysteresis, if the hysteresis was redundant and is left out.
     pub without_hysteresis: Option<f64>,
 }
 
 impl FinalFit {
-    /// Fits the last model of a ledger to the fit and stop-check segments together; where
-    /// that finds nothing better there, the model stays as it is. A hysteresis that is ballast is
-    /// left out.
+    /// Fits the last model of a results table to the fit and selection segments together; if this
+    /// fit finds nothing better there, the model stays as it is. A redundant hysteresis is left
+    /// out.
     #[must_use]
     pub fn new(data: &Prepared, ledger: &Ledger) -> Self {
         let whole = Self::of(data, ledger.last());
         whole.without_ballast(data).unwrap_or(whole)
     }
 
-    /// The model without its hysteresis, where that is ballast, nothing else needs it, and the
-    /// model without it errs no more: by less than an effect must gain to be worth a name.
+    /// The model without its hysteresis, if the hysteresis is redundant, nothing else needs it, and
+    /// the error without it does not rise by as much as an effect must gain to be worth a name.
     fn without_ballast(&self, data: &Prepared) -> Option<Self> {
         let part = Part::of(&self.data, &self.solution)?;
         if !part.is_cancelled() || has_parts_of_hysteresis(&self.solution) {
@@ -55,7 +55,7 @@ impl FinalFit {
         })
     }
 
-    /// The same of any solution.
+    /// The same for any solution.
     #[must_use]
     pub fn of(data: &Prepared, last: &Solution) -> Self {
         let wide = data.with_stop_fitted();
@@ -81,9 +81,9 @@ impl FinalFit {
         }
     }
 
-    /// Which term of the final model a round has added: later rounds refine its shapes, so
-    /// of two of one effect on one channel it is the nearest in its shapes. `None` where a
-    /// later step took it back.
+    /// Which term of the final model a round has added. Later rounds refine its shapes, so if two
+    /// terms have the same effect and channel, it is the one with the nearest shapes. `None` if a
+    /// later step removed the term.
     #[must_use]
     pub fn term_of(&self, round: &Round) -> Option<usize> {
         let own = round.term();
@@ -101,7 +101,7 @@ impl FinalFit {
             .map(|(index, _)| index)
     }
 
-    /// The name of what a round has added, as it is in the final model.
+    /// The name of the term that a round has added, as in the final model.
     #[must_use]
     pub fn title_of(&self, round: &Round) -> String {
         let own = self.term_of(round);

@@ -33,12 +33,12 @@ pub struct Parameter {
     pub ci95: Option<[f64; 2]>,
     /// Whether the record determines it.
     pub identified: bool,
-    /// Why not, and what would show it; `None` where it is identified.
+    /// Why not, and which motion would identify it; `None` if it is identified.
     pub not_identified: Option<Refusal>,
-    /// By how many times its interval is too wide, where it is refused for that.
+    /// Factor by which its interval is too wide, if this is the reason.
     #[serde(skip)]
     pub too_wide: Option<f64>,
-    /// Index of the term it belongs to; `None` for the transmission.
+    /// Index of its term; `None` for the transmission.
     #[serde(skip)]
     pub term: Option<usize>,
 }
@@ -48,7 +48,7 @@ pub struct Parameter {
 pub struct Refusal {
     /// "at its upper bound", "correlated with kappa_eta", …
     pub reason: String,
-    /// The motion that would show it.
+    /// The motion that would identify it.
     pub excitation: String,
 }
 
@@ -56,7 +56,7 @@ pub struct Refusal {
 /// spans a factor of three.
 const SHAPE_WIDTH: f64 = 0.5;
 
-/// Correlation of two estimates from which one is said to move with the other.
+/// Correlation of two estimates from which on they are reported as correlated.
 const WITH: f64 = 0.9;
 
 struct Entry<'a> {
@@ -65,8 +65,8 @@ struct Entry<'a> {
     value: f64,
     column: &'a Stretch,
     shape: bool,
-    /// Why it is not identified whatever its interval is: it lies on a bound, or the record cannot show
-    /// it.
+    /// Why it is not identified, whatever its interval: it lies on a bound, or the record cannot
+    /// identify it.
     refused: Option<String>,
     excitation: &'static str,
     /// The reported value is this factor times the fitted one.
@@ -74,7 +74,7 @@ struct Entry<'a> {
     term: Option<usize>,
 }
 
-/// The name of a term: the effect's own, with its channel where it reads another than the input.
+/// The name of a term: that of the effect, with the channel if it reads another than the input.
 #[must_use]
 pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
     match term.source {
@@ -87,8 +87,8 @@ pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
     }
 }
 
-/// The name of a term for people: with the order of a ripple and the frequency of a tone,
-/// by which two of them differ.
+/// The name of a term for people: with the order of a ripple or the frequency of a tone, which
+/// distinguishes two of them.
 #[must_use]
 pub fn term_title(data: &Prepared, term: &FitTerm) -> String {
     let name = term_name(data, term);
@@ -174,7 +174,7 @@ fn entries<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
     all
 }
 
-/// A linear gain: its place among them, and the sign with which it is shown.
+/// A linear gain: its position among the gains, and the sign with which it is shown.
 fn linear(
     solution: &Solution,
     name: String,
@@ -201,7 +201,7 @@ fn linear(
     }
 }
 
-/// The gains of the transmission, of each record where it has its own.
+/// The gains of the transmission; if each record has its own, those of each record.
 fn transmission<'a>(data: &Prepared, solution: &'a Solution) -> Vec<Entry<'a>> {
     let (input, output) = (data.input.unit.as_deref(), data.output_unit.as_deref());
     let gain = Unit::one().times(output, 1).times(input, -1).text();
@@ -294,7 +294,7 @@ fn named(
 struct Design {
     /// Norm of each column.
     scale: Vec<f64>,
-    /// Which of them are no zeros.
+    /// Which of the columns are not zero.
     used: Vec<usize>,
     x: DMatrix<f64>,
     gram: DMatrix<f64>,
@@ -326,7 +326,7 @@ impl Design {
         inverse(self.gram.clone())
     }
 
-    /// For each column the other one with whose estimate its own is most correlated.
+    /// For each column, the other column with the most correlated estimate.
     fn partners(&self) -> Vec<Option<(usize, f64)>> {
         // Without an inverse the columns themselves tell who goes with whom.
         let covariance = self.bread().unwrap_or_else(|| self.gram.clone());
@@ -346,9 +346,9 @@ impl Design {
     }
 }
 
-/// By how much each column's factor would move without each block, times the correction
-/// for their number: variances are sums of the squares. NaN for a column that depends on
-/// the others; `None` where all do.
+/// The change of each column's factor without each block, times the correction for the number of
+/// blocks: the variances are the sums of the squares. NaN for a column that depends on the others;
+/// `None` if all do.
 pub(crate) fn jackknife(
     data: &Prepared,
     solution: &Solution,

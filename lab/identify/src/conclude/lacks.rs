@@ -10,7 +10,7 @@ use crate::fit::Segments;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 
-/// What the added effects do to the held-out error.
+/// The effect of the added terms on the held-out error.
 pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     let added = names(ledger, done);
     match added.len() {
@@ -40,8 +40,8 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     )
 }
 
-/// What is to be said of the names of a model that is not complete: two records fitted together
-/// show more than either.
+/// The remark on the names of an incomplete model: two records fitted together show more than
+/// either of them.
 fn candidates(data: &Prepared, ledger: &Ledger) -> String {
     let terms = match (Complete::new(data, ledger).at_floor, ledger.rounds.len()) {
         (true, _) | (_, 0) => return String::new(),
@@ -58,8 +58,8 @@ fn candidates(data: &Prepared, ledger: &Ledger) -> String {
     }
 }
 
-/// What the names do, and what is left to a curve beside them: it is in the final error, and neither
-/// has a name nor is handed over.
+/// The reduction by the names, and the further reduction by a curve: the curve is included in the
+/// final error, but matches no effect and is not exported.
 fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Segments) -> String {
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);

@@ -1,4 +1,4 @@
-//! The mechanisms that the baseline model lacks: what the missing force depends on.
+//! The mechanisms that are missing from the baseline model: what the missing force depends on.
 //!
 //! The terms of one mechanism describe one curve. Another record of the same rig often gives other
 //! terms, but usually the same mechanism.
@@ -27,12 +27,12 @@ pub struct Lack {
     pub title: String,
     /// Share of the baseline's squared error on left-out blocks that it removes.
     pub share: Shares,
-    /// High where it leaves at most half of the squared error that any other mechanism leaves, or
-    /// where the model is complete and one of its terms is of high confidence.
+    /// High if it leaves at most half of the squared error that any other mechanism leaves, or if
+    /// the model is complete and one of its terms has high confidence.
     pub confidence: Grade,
-    /// Other mechanisms that leave less than twice as much in its place.
+    /// Other mechanisms that, instead of it, leave less than twice as much squared error.
     pub alternatives: Vec<Mechanism>,
-    /// What it adds to the output.
+    /// Its contribution to the output.
     pub curve: Curve,
     /// Its terms, as the results table names them, in the order of their rounds.
     pub members: Vec<String>,
@@ -68,14 +68,14 @@ pub struct Shares {
 }
 
 impl Shares {
-    /// The larger of the two.
+    /// The larger of the two shares.
     #[must_use]
     pub fn most(&self) -> f64 {
         self.alone.value.max(self.beyond_others.value)
     }
 }
 
-/// What a mechanism adds to the output, over its variable.
+/// The contribution of a mechanism to the output, over the mechanism's variable.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Curve {
     /// The variable in words.
@@ -86,17 +86,17 @@ pub struct Curve {
     pub points: Vec<Knot>,
 }
 
-/// What one of several files says by itself.
+/// The answer of one of several files by itself.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FileAlone {
     /// The file.
     pub path: String,
-    /// The mechanisms that the baseline model, fitted to this file alone, lacks; `None` if this file
-    /// is too short for an answer.
+    /// The mechanisms that are missing if the baseline model is fitted to this file alone; `None`
+    /// if the file is too short for an answer.
     pub lacks: Option<Vec<LackAlone>>,
 }
 
-/// A mechanism that the baseline model, fitted to one file, lacks.
+/// A mechanism that is missing from the baseline model, fitted to one file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LackAlone {
     /// Which.
@@ -107,12 +107,12 @@ pub struct LackAlone {
     pub title: String,
     /// Share of the baseline's squared error on left-out blocks that it removes by itself.
     pub share: Share,
-    /// High where it leaves at most half of the squared error that any other mechanism leaves.
+    /// High if it leaves at most half of the squared error that any other mechanism leaves.
     pub confidence: Grade,
 }
 
 impl FileAlone {
-    /// Puts a question to one file.
+    /// Finds the mechanisms of one file.
     pub(crate) fn new(path: &str, asked: Option<(Prepared, Structure)>) -> Self {
         let answer = asked.and_then(|(data, structure)| {
             let supported = alone(&data, &structure)?;
@@ -150,12 +150,12 @@ pub struct Across<'a> {
     pub title: &'a str,
     /// Whether the joint fit supports it.
     pub is_joint: bool,
-    /// Of each file that has an answer the path, and the confidence by itself; `None` if the file
-    /// does not support it.
+    /// For each file that has an answer: the path, and the confidence by itself, which is `None` if
+    /// the file does not support the mechanism.
     pub files: Vec<(&'a str, Option<Grade>)>,
 }
 
-/// Each mechanism with what the files say of it, those of the joint fit first.
+/// Each mechanism with the answers of the files, the mechanisms of the joint fit first.
 #[must_use]
 pub fn across<'a>(joint: &'a [Lack], files: &'a [FileAlone]) -> Vec<Across<'a>> {
     let mut all: Vec<(Mechanism, &str, bool)> = Vec::new();
@@ -190,7 +190,7 @@ pub fn across<'a>(joint: &'a [Lack], files: &'a [FileAlone]) -> Vec<Across<'a>> 
 pub struct Complete {
     /// Error of the last model of the search on the fit segment, in multiples of the noise.
     pub floors: Option<f64>,
-    /// Whether that is noise.
+    /// Whether this error is noise.
     pub at_floor: bool,
 }
 
@@ -221,7 +221,7 @@ fn channel_and_title(data: &Prepared, one: &Support) -> (String, String) {
     (channel.to_owned(), title)
 }
 
-/// The sentence that names them.
+/// The sentence that names the missing mechanisms.
 #[must_use]
 pub fn lacking(all: &[Lack]) -> String {
     let titles: Vec<&str> = all.iter().map(|lack| lack.title.as_str()).collect();
@@ -232,8 +232,8 @@ pub fn lacking(all: &[Lack]) -> String {
     format!("The baseline model lacks {titles}.")
 }
 
-/// The mechanisms that the baseline lacks, the largest share first; none where the search added
-/// nothing.
+/// The mechanisms that are missing from the baseline, the largest share first; none if the search
+/// added nothing.
 #[must_use]
 pub fn mechanisms(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Lack> {
     let is_complete = is_at_noise(data, ledger.last());

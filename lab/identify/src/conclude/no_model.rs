@@ -1,4 +1,4 @@
-//! Where there is no model of the input: whether, and why.
+//! Whether there is no model of the input, and why.
 
 use super::changes::is_other_file;
 use super::files_apart::files_scaled;
@@ -12,10 +12,10 @@ use crate::score::explains::{explained, explained_on, Explained};
 use bowden::effect::Family;
 use bowden::model::Source;
 
-/// Least share of the held-out output that the input explains of a model worth the name.
+/// Least share of the held-out output that the input must explain in a valid model.
 const LEAST_EXPLAINED: f64 = 0.5;
 
-/// The share of the output that must be explained by what the model is a model of.
+/// The share of the output explained by the variables that the model describes.
 ///
 /// Friction of a joint that moves under a nearly constant load is no spring that stands for the
 /// output: what such effects of the channels explain counts.
@@ -26,7 +26,7 @@ fn judged(shares: Explained, declared: &Solution, done: &Solution) -> f64 {
     }
 }
 
-/// Whether all that a model reads of the channels is friction, and it reads any of it.
+/// Whether a model has terms on channels, and all of them are friction.
 fn is_friction_alone(solution: &Solution) -> bool {
     let terms = solution.structure.terms.iter();
     let mut read = terms.filter(|t| t.source != Source::Input).peekable();
@@ -46,8 +46,8 @@ fn is_friction_alone(solution: &Solution) -> bool {
     read.peek().is_some() && read.all(|t| is_friction(t.effect.family()))
 }
 
-/// The share of the output that the baseline model explains by the input alone, where a channel
-/// stands for the output in the delivered one.
+/// The share of the output that the baseline model explains by the input alone, if a channel
+/// replaces the output in the delivered model.
 fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64> {
     let shares = explained(data, &done.solution);
     let alone = explained(data, &ledger.declared).input;
@@ -55,9 +55,9 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
     (is && alone >= LEAST_EXPLAINED).then_some(alone)
 }
 
-/// Whether nothing explains the held-out part, although the baseline model explains the selection
-/// segment, which it was not fitted to: then it is a model, and the held-out part is of another rig,
-/// or of another motion.
+/// Whether nothing explains the held-out segment, although the baseline model explains the
+/// selection segment, to which it was not fitted. Then the model is valid, and the held-out segment
+/// is from another rig or another motion.
 fn only_held_out_is_lost(data: &Prepared, declared: &Solution, held_out: Explained) -> bool {
     let all = held_out.input + held_out.channels + held_out.time;
     let before = explained_on(data, declared, &data.split.selection);
@@ -66,7 +66,7 @@ fn only_held_out_is_lost(data: &Prepared, declared: &Solution, held_out: Explain
         && judged(before, declared, declared) >= LEAST_EXPLAINED
 }
 
-/// Whether there is no model of the input, or none of all files.
+/// Whether there is no model of the input, or no common model of all files.
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
     let shares = explained(data, &done.solution);
     let little = judged(shares, &ledger.declared, &done.solution) < LEAST_EXPLAINED

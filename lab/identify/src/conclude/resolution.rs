@@ -16,11 +16,11 @@ use crate::record::{Defect, DefectKind, Record, Steps};
 use bowden::effect::Quantity;
 use bowden::model::Source;
 
-/// The steps matter where what they do to the model is more than this share of its residual, and
-/// more than the noise floor. A choice: half of an error is a quarter of its square.
+/// The steps matter if their effect on the model is more than this share of its residual, and more
+/// than the noise floor. A choice: half of an error is a quarter of its square.
 const MATTERS: f64 = 0.5;
-/// Multiple of what the steps do to the model up to which they explain what a name removes, as
-/// root mean squares. A choice: a name that removes more is larger than they are.
+/// The steps explain the reduction by a name up to this multiple of their effect on the model, as
+/// RMS values. A choice: a name that removes more is larger than the steps.
 const EXPLAINS: f64 = 2.0;
 
 /// The channels whose steps matter to the final model; `prepare` puts records on the same grids.
@@ -68,7 +68,7 @@ fn rms(data: &Prepared, signal: &[f64]) -> f64 {
     (squares / rows.len().max(1) as f64).sqrt()
 }
 
-/// By how much the prediction moves with a line through the steps of one channel, 0 for the input.
+/// The change of the prediction with a line through the steps of one channel, 0 for the input.
 fn moved(data: &Prepared, finer: &Prepared, channel: usize, model: &Solution) -> Option<f64> {
     let mut mended = data.clone();
     let put = |to: &mut Channel, from: &Channel| to.motion.clone_from(&from.motion);
@@ -85,8 +85,8 @@ fn moved(data: &Prepared, finer: &Prepared, channel: usize, model: &Solution) ->
     Some(rms(data, &difference)).filter(|error| error.is_finite())
 }
 
-/// Takes the grade `firm` from the names that the steps of a channel explain, and says in a
-/// note what they do.
+/// Withdraws high confidence from the names that the steps of a channel explain, and adds a note on
+/// the effect of the steps.
 pub(crate) fn told(data: &mut Prepared, ledger: &mut Ledger, coarse: Vec<CoarseChannel>) {
     for mut one in coarse {
         let source = match data.channels.iter().position(|c| c.name == one.channel) {
@@ -109,7 +109,7 @@ pub(crate) fn told(data: &mut Prepared, ledger: &mut Ledger, coarse: Vec<CoarseC
     }
 }
 
-/// Whether the steps explain what a name removes: one that reads a velocity or has reversals.
+/// Whether the steps explain the reduction by a name, which reads a velocity or has reversals.
 fn is_explained(round: &Round, error: f64) -> bool {
     let effect = &round.term().effect;
     let reads = |what: &Quantity| matches!(what, Quantity::Velocity | Quantity::Acceleration);

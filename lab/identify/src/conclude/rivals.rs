@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-/// "presliding from backlash, delay" of each name with its rivals. A pair stands once, whichever of its two
-/// was named, and however often.
+/// "presliding from backlash, delay" for each name with its alternatives. Each pair appears once,
+/// whichever of the two was named, and however often.
 #[must_use]
 pub fn each_pair_once(named: impl IntoIterator<Item = (String, Vec<String>)>) -> Vec<String> {
     let mut told = HashSet::new();

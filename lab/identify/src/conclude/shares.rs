@@ -6,21 +6,21 @@ use crate::problem::Prepared;
 
 /// The parts of a model's output on the work grid, before the filter: they sum to it.
 ///
-/// An output stage acts on the sum of all other parts. So these are what they are before the
-/// stages, and the part of a stage is what it changes of what comes to it. An input stage
-/// has no part of its own: it changes what the transmission makes of its input.
+/// An output stage acts on the sum of all other parts. The other parts are therefore given before
+/// the stages, and the part of a stage is the change that it makes. An input stage has no part of
+/// its own: it changes the part of the transmission.
 #[derive(Debug, Clone)]
 pub struct Shares {
-    /// The transmission's gain, hysteresis and constant, where there is one.
+    /// The transmission's gain, hysteresis and constant, if there is a transmission.
     pub transmission: Option<[Vec<f64>; 3]>,
     /// One for each term of the structure; `None` for an input stage.
     pub terms: Vec<Option<Vec<f64>>>,
-    /// The table of what has no name, where there is one.
+    /// The table of the unmodelled curve, if there is one.
     pub table: Option<Vec<f64>>,
 }
 
 impl Shares {
-    /// The parts of a solution; `None` where the record lacks a channel that it reads.
+    /// The parts of a solution; `None` if the record lacks a channel that the solution reads.
     #[must_use]
     pub fn of(data: &Prepared, solution: &Solution) -> Option<Self> {
         let Solution {

@@ -8,41 +8,41 @@ use std::ops::Range;
 /// The segment that a sample belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Segment {
-    /// At an end or in a blind stretch: used by nothing.
+    /// At an end or in a gap: not used.
     Dropped,
     /// Fitted.
     Fit,
-    /// The stop-check.
+    /// Selection.
     Stop,
     /// Held out.
     HeldOut,
-    /// In a check, all that counts.
+    /// In a validation: all samples that count.
     Checked,
 }
 
 /// One file on the common grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct File {
-    /// Where it was read.
+    /// The path of the file.
     pub path: String,
     /// Its samples.
     pub rows: Range<usize>,
-    /// The sample at which a model errs most.
+    /// The sample with the largest model error.
     pub worst: Option<Worst>,
 }
 
-/// The sample at which a model errs most.
+/// The sample with the largest model error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worst {
     /// The sample.
     pub row: usize,
-    /// Measured minus predicted there, by each model.
+    /// Measured minus predicted at this sample, for each model.
     pub errors: [f64; 2],
     /// The samples around it: one period of the input's highest tone to either side.
     pub around: Range<usize>,
 }
 
-/// What one part of the last model adds.
+/// The contribution of one part of the last model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// The part over time.
@@ -66,10 +66,10 @@ pub struct Signals {
     pub channels: Vec<Column>,
     /// The output through the filter.
     pub measured: Column,
-    /// What the models predict: the declared one and the final one, or the model as it is and
+    /// The predictions of two models: the baseline and the final model, or the model as it is and
     /// with gain and offset.
     pub models: [Column; 2],
-    /// What each leaves of the output.
+    /// The residual of each model.
     pub residuals: [Vec<f64>; 2],
     /// The parts of the model that [`parts`](super::trace) writes.
     pub parts: Vec<Part>,

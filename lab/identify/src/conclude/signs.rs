@@ -13,11 +13,11 @@ use crate::record::Mode;
 use crate::score::tones::may_be_of_the_motion;
 use bowden::model::Source;
 
-/// A hysteresis is mentioned from this share of the output's standard deviation on. A choice: less is
-/// what the fit of another part leaves to it.
+/// Least share of the output's standard deviation at which a hysteresis is mentioned. A choice: a
+/// smaller one is a remainder of the fit of another part.
 const SHOWS: f64 = 0.01;
 
-/// Parts that remember, or are friction, and may share the friction with a hysteresis.
+/// Parts with memory, or friction, which may share the friction with a hysteresis.
 const FRICTION: [&str; 12] = [
     "presliding",
     "presliding-dahl",
@@ -33,7 +33,7 @@ const FRICTION: [&str; 12] = [
     "position-hysteresis",
 ];
 
-/// Tones at lines that the motion itself may make.
+/// Tones at lines that the motion itself may cause.
 pub(super) fn of_the_motion(data: &Prepared, solution: &Solution) -> Option<Finding> {
     let terms = solution.structure.terms.iter();
     let tones = terms.filter(|term| may_be_of_the_motion(data, term));
@@ -64,7 +64,7 @@ pub(super) fn of_temperature(data: &Prepared, solution: &Solution) -> Option<Fin
     })
 }
 
-/// A torque that falls where the input rises.
+/// A torque that falls when the input rises.
 pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<Finding> {
     if data.mode != Mode::Torque || input_gain(solution)? >= 0.0 {
         return None;
@@ -77,8 +77,8 @@ pub(super) fn falls(data: &Prepared, solution: &Solution) -> Option<Finding> {
     })
 }
 
-/// The gain over the input, with what a share of it adds; `None` without hysteresis, and where each
-/// file has its own.
+/// The gain over the input, with the contribution of a share of it; `None` without hysteresis, and
+/// if each file has its own gain.
 fn input_gain(solution: &Solution) -> Option<f64> {
     let structure = &solution.structure;
     if !structure.hysteresis || structure.own_gains > 0 {
@@ -93,8 +93,8 @@ fn input_gain(solution: &Solution) -> Option<f64> {
     Some(solution.gains[0] + shares.map(|(i, _)| solution.gain(i)).sum::<f64>())
 }
 
-/// A hysteresis whose loop turns against that of the output: beside other parts its
-/// gain is that of a difference.
+/// A hysteresis whose loop runs in the opposite sense to that of the output: together with other
+/// parts, its gain is that of a difference.
 pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     let (data, solution) = (&done.data, &done.solution);
     let structure = &solution.structure;
@@ -127,7 +127,7 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     })
 }
 
-/// Whether the output of a cable comes before its input: its loop turns the other way.
+/// Whether the output of a cable leads its input: the loop runs in the opposite sense.
 pub(crate) fn comes_before(data: &Prepared) -> bool {
     let rows = data.split.fit.iter();
     let position = |row: usize| data.input.motion[row * data.stride].position;
@@ -135,7 +135,7 @@ pub(crate) fn comes_before(data: &Prepared) -> bool {
     data.mode == Mode::Torque && slope * area(data, &data.target) > 0.0
 }
 
-/// Input and output that may stand in each other's place.
+/// Input and output that may be exchanged.
 pub(super) fn swapped(data: &Prepared, ledger: &Ledger) -> Option<Finding> {
     let [before, after] = ledger.exchanged?;
     Some(Finding::InputOutputSwapped {

@@ -40,14 +40,14 @@ impl Column {
     }
 }
 
-/// The trace of a closed record as CSV.
+/// The trace of an identified record as CSV.
 ///
 /// `t` counts from the first sample that was read of each record. The parts of the final
-/// model are named as its effects; they sum to `final`. What stands behind an output stage
-/// (a delay, a lag) is given before it, and the stage as what it changes.
+/// model are named after its effects; they sum to `final`. Parts that pass through an output stage
+/// (a delay, a lag) are given before the stage, and the stage as the change that it makes.
 ///
 /// # Errors
-/// One sentence where the trace cannot be put together.
+/// One sentence if the trace cannot be computed.
 pub fn trace(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<String, String> {
     let unit = data.output_unit.as_deref();
     let last = &done.solution;
@@ -85,7 +85,7 @@ pub(super) fn position(data: &Prepared, channel: &Channel) -> Column {
     Column::new(channel.name.clone(), unit, data.filtered(&position))
 }
 
-/// What each part of a model adds, through the filter.
+/// The filtered contribution of each part of a model.
 pub(crate) fn parts(data: &Prepared, solution: &Solution) -> Result<Vec<Column>, String> {
     let shares = Shares::of(data, solution).ok_or("the parts of the model have no values")?;
     let mut named: Vec<(String, Vec<f64>)> = Vec::new();

@@ -4,8 +4,8 @@
 //! Each part is removed from the final model and the others are refitted. If the error on held-out
 //! data grows by less than a tenth, the part is redundant. Without its hysteresis a transmission is
 //! a line, gain and offset; effects that read the hysteresis state and stages before it go with it.
-//! Parts are judged one at a time: of two that can each stand in for the other both are listed, and
-//! one of them is needed.
+//! Parts are judged one at a time: of two parts that can replace each other both are listed,
+//! although one of them is needed.
 
 use super::ballast::without_hysteresis;
 use super::final_fit::FinalFit;
@@ -18,16 +18,16 @@ use serde::Serialize;
 /// Share by which the held-out error may grow without a part that is not needed.
 const COST: f64 = 0.1;
 
-/// A declared part that the data do not need.
+/// A part of the baseline that the data do not need.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Unneeded {
     /// Its name; `bouc-wen` for the hysteresis.
     pub effect: String,
     /// RMSE on the held-out segment without it, the others refitted.
     pub held_out_without: f64,
-    /// The same with it.
+    /// RMSE on the held-out segment with it.
     pub held_out_with: f64,
-    /// Whether the final model leaves it out: the hysteresis, where it is ballast.
+    /// Whether the final model omits it: the hysteresis, if it is redundant.
     pub removed: bool,
 }
 

@@ -15,29 +15,29 @@ use crate::problem::Prepared;
 use crate::record::Defect;
 use crate::score::blocks::Regime;
 
-/// What the run amounts to.
+/// The verdict of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The input explains less than half of the output, the output integrates it, or one file has
     /// another gain than the others.
     NoInputDependence,
-    /// The delivered model predicts held-out data worse than the declared one, worse than a
+    /// The delivered model predicts held-out data worse than the baseline model, worse than a
     /// constant, or with many times the error of the fit segment.
     NotTransferable,
     /// The residual is the sensor's noise, on the fit segment and held out.
     Explained,
-    /// The residual is more than that, and no effect of the catalogue was found in it.
+    /// The residual exceeds the noise, and no effect of the catalogue was found in it.
     StructuredResidual,
-    /// The residual depends on something measured, in a way that has no name.
+    /// The residual depends on a measured variable in a way that matches no effect.
     UnmodelledDependence,
-    /// An added effect has rivals that this record cannot tell from it.
+    /// An added effect has alternatives that this record cannot distinguish from it.
     Ambiguous,
-    /// Too few independent stretches for a test: names are proposals.
+    /// The record has too few independent blocks for a test: names are proposals.
     UnderExcited,
-    /// What was concluded rests on a measurement that is spoilt.
+    /// The conclusions rest on a defective measurement.
     DefectiveRecord,
-    /// The search was ended by request, and more than noise is left.
+    /// A limit of the user ended the search, and the residual exceeds the noise.
     Stopped,
 }
 
@@ -59,8 +59,8 @@ impl Verdict {
     }
 }
 
-/// Defects that spoil what was concluded: grave ones of time, input, output, and of the
-/// channels that the model reads.
+/// Defects that invalidate the conclusions: severe defects of the time, the input, the output, and
+/// the channels that the model reads.
 pub(super) fn spoils<'a>(
     data: &'a Prepared,
     last: &'a Solution,
@@ -79,7 +79,7 @@ pub(super) fn spoils<'a>(
     })
 }
 
-/// The verdict on a ledger and the model that it delivers.
+/// The verdict on a results table and the model that it delivers.
 #[must_use]
 pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     let last = ledger.last();
@@ -113,7 +113,7 @@ pub fn verdict(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Verdict {
     }
 }
 
-/// Whether a hysteresis was fitted to a record without its reversals.
+/// Whether a hysteresis was fitted to a record without reversals.
 pub(super) fn is_one_stroke(data: &Prepared, done: &FinalFit) -> bool {
     done.solution.structure.hysteresis && without_reversals(data).is_some()
 }

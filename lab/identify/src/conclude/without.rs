@@ -3,7 +3,7 @@
 use crate::algebra::inverse;
 use nalgebra::{DMatrix, DVector};
 
-/// A parameter whose variance grows by more than this without one block is known from
+/// A parameter whose variance grows by more than this factor without one block is determined by
 /// that block alone.
 const ALONE: f64 = 30.0;
 
