@@ -43,14 +43,14 @@ impl Candidate {
         Some(Self::from(FitTerm { effect, ..*term }))
     }
 
-    /// What the effect is a function of, or stands for.
+    /// The variable that the effect is a function of or represents.
     #[must_use]
     pub fn variables(&self) -> Vec<Variable> {
         let effect = &self.term.effect;
         entry(effect.name()).map_or_else(Vec::new, |own| own.variables(effect, self.term.source))
     }
 
-    /// Whether the other is the same effect of the same channel, of whatever shape.
+    /// Whether the other is the same effect on the same channel, whatever its shape.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         let name = |one: &Self| (one.term.effect.name(), one.term.source);
@@ -58,8 +58,8 @@ impl Candidate {
     }
 }
 
-/// Rank among rivals, of which the lowest is named: that of the family, then the effect's
-/// place in the core's catalogue.
+/// Rank among alternatives, of which the lowest is named: the rank of the family, then the effect's
+/// position in the core's catalogue.
 #[must_use]
 pub fn simplicity(effect: &Effect<f64>) -> (usize, usize) {
     let own = CATALOGUE
@@ -79,9 +79,9 @@ fn quantile(sorted: &[f64], q: f64) -> f64 {
 struct Site<'a> {
     source: Source,
     channel: &'a Channel,
-    /// Whether it stands for the model as a whole, which has no zero of position.
+    /// Whether it represents the model as a whole, which has no zero of position.
     whole: bool,
-    /// The positions from their origin, in order, once somebody asks for them.
+    /// The positions from their origin, sorted; computed on first use.
     sorted: Option<Vec<f64>>,
 }
 
@@ -93,7 +93,7 @@ impl Site<'_> {
         }
     }
 
-    /// Position below which the channel stays for that share of the time, from its origin.
+    /// Position, from the origin, below which the channel stays for this share of the time.
     fn quantile(&mut self, share: f64) -> f64 {
         let channel = self.channel;
         let sorted = self
@@ -111,7 +111,7 @@ struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    /// One candidate, unless the structure has no place for it.
+    /// One candidate, unless the structure does not allow it.
     fn add(&mut self, entry: &Entry, source: Source, origin: f64, shapes: &[f64]) {
         let name = entry.name;
         let Ok(effect) = Effect::try_from_name(name, shapes) else {
@@ -205,8 +205,8 @@ impl Collector<'_> {
     /// The strongest lines of the residual's order spectrum, each at its own phase and
     /// at a quarter period from it.
     ///
-    /// Orders from two and a half periods over the range (fewer are no ripple but a bent line) up to where the usual speed
-    /// makes them faster than the cut-off.
+    /// Orders from two and a half periods over the range (fewer periods are a bent line, not a
+    /// ripple) up to the order that is faster than the cut-off at the usual speed.
     fn orders(&mut self, entry: &Entry, source: Source, channel: &Channel) {
         let two_pi = 2.0 * std::f64::consts::PI;
         let range = 2.0 * channel.reach;
@@ -243,7 +243,7 @@ impl Collector<'_> {
         }
     }
 
-    /// The time constants \[s\] that the motion of a channel does not already fill.
+    /// The time constants \[s\] that the motion of a channel does not already cover.
     fn unfilled(&self, channel: &Channel) -> Range<f64> {
         let n = channel.motion.len() as f64;
         let squares = channel.motion.iter();
@@ -300,7 +300,7 @@ fn sorted_positions(channel: &Channel, origin: f64) -> Vec<f64> {
     sorted
 }
 
-/// All candidates for this record, this structure and what it leaves.
+/// All candidates for this record, this structure and its residual.
 #[must_use]
 pub fn candidates(data: &Prepared, structure: &Structure, residual: &[f64]) -> Vec<Candidate> {
     let mut all = Collector {

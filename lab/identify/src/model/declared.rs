@@ -8,8 +8,8 @@ use crate::record::{nearest, Mode};
 use bowden::effect::{Effect, Family, CATALOGUE};
 use bowden::model::Source;
 
-/// The effect that a user means by a name in `--baseline`: an effect's own name, or a
-/// family's, which stands for its first member. Shapes start at the record's scale.
+/// The effect that a name in `--baseline` means: the name of an effect, or of a family, which means
+/// its first member. Shapes start at the record's scale.
 ///
 /// # Errors
 /// One sentence that lists what can be declared.
@@ -83,7 +83,7 @@ fn families() -> Vec<&'static str> {
 /// The structure that a `--baseline` list means.
 ///
 /// # Errors
-/// One sentence where a name is not known or comes twice.
+/// One sentence if a name is unknown or repeated.
 pub fn structure(list: &[String], data: &Prepared) -> Result<Structure, String> {
     let mut structure = Structure::default();
     for name in list {
@@ -116,7 +116,7 @@ fn stretch(data: &Prepared) -> Option<Source> {
     found.map(|(source, _)| source)
 }
 
-/// In torque mode motion effects read the distal angle, else the proximal one.
+/// In torque mode motion effects read the distal angle, otherwise the proximal one.
 fn default_source(data: &Prepared) -> Source {
     if data.mode == Mode::Displacement {
         return Source::Input;

@@ -1,9 +1,9 @@
 //! Output stages over several columns in parallel.
 //!
 //! At every sample a column waits for its own last value, but eight columns do not wait for each
-//! other. Each comes out bit for bit as from
-//! [`Effect::contributions`](bowden::effect::Effect::contributions): no sum is reordered, no
-//! product fused with a sum.
+//! other. Each result equals
+//! [`Effect::contributions`](bowden::effect::Effect::contributions) bit for bit: no sum is
+//! reordered, and no product is fused with a sum.
 
 use crate::problem::is_silent;
 use bowden::effect::Effect;
@@ -17,7 +17,7 @@ pub(super) const BLOCK: usize = 256;
 /// with a gain below this, over any step that is one.
 const SMALL: f64 = 1e100;
 
-/// What a stage makes of a sample, from what it remembers of the samples before.
+/// The output of a stage for a sample, from its memory of earlier samples.
 #[derive(Clone, Copy)]
 enum Stage {
     /// Remembers its level.
@@ -47,8 +47,8 @@ impl Stage {
     }
 }
 
-/// Sends columns of one length through a stage; false, with the columns as they were, where it
-/// is not a stage of these, or where something might overflow.
+/// Passes columns of one length through a stage. Returns false, with the columns unchanged, if the
+/// stage is not one of these, or if something might overflow.
 pub(super) fn through(
     effect: &Effect<f64>,
     gain: f64,

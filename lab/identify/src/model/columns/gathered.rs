@@ -22,7 +22,7 @@ impl<'a> Gathered<'a> {
         }
     }
 
-    /// One more; it is computed only where it may have moved since the last time.
+    /// Adds one column; it is computed only if it may have changed since the last time.
     pub(super) fn push(
         &mut self,
         fixed: bool,
@@ -31,7 +31,7 @@ impl<'a> Gathered<'a> {
         self.push_all(fixed, 1, || Some(vec![column()?]))
     }
 
-    /// `count` more that are computed together.
+    /// Adds `count` columns that are computed together.
     pub(super) fn push_all(
         &mut self,
         fixed: bool,

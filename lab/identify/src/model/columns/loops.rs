@@ -6,7 +6,7 @@ use crate::problem::{is_silent, Prepared};
 use bowden::hysteresis::{BoucWen, Sensitivity};
 use rayon::prelude::*;
 
-/// The input as the transmission sees it: behind the input stages, whose gain is one.
+/// The input of the transmission: after the input stages, whose gain is one.
 pub(super) fn seen(data: &Prepared, terms: &[FitTerm]) -> Option<Vec<f64>> {
     let mut seen: Vec<f64> = data.input.motion.iter().map(|m| m.position).collect();
     let rest = vec![0.0; seen.len()];
@@ -66,8 +66,8 @@ fn with_slopes(shape: &BoucWen<f64>, seen: &[f64], all: &mut [Sensitivity<f64>],
     }
 }
 
-/// Walks along each record by itself, several at a time: what it sees, what becomes of it, and
-/// the state that it begins with.
+/// Processes each record by itself, several at a time: its input, its result, and its initial
+/// state.
 fn by_record<T: Send>(
     data: &Prepared,
     seen: &[f64],

@@ -3,9 +3,9 @@
 //! The functions that run in firmware compute every column: the hysteresis from
 //! [`bowden::hysteresis::BoucWen`], the effects from [`bowden::effect::Effect`].
 //!
-//! If several records follow one another, every state restarts in each. Time is that since the
-//! record's beginning, as a rig warms up anew; only the step of the pretension counts from the
-//! first record on: what has slipped stays so in the next one.
+//! If several records follow one another, every state restarts in each. Time counts from the
+//! beginning of each record, because a rig warms up anew. Only for the preload step does time count
+//! from the first record: a clamp that has slipped stays slipped in the next record.
 
 use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Role, Structure, TermId, Terms};
@@ -43,14 +43,14 @@ pub struct RawColumns {
     terms: Terms,
     /// The hysteresis, and its state at the start of each record.
     shape: Option<(BoucWen<f64>, Vec<f64>)>,
-    /// The hysteresis with its slopes, where they came with it.
+    /// The hysteresis with its slopes, if they were computed with it.
     trajectory: Option<Vec<Sensitivity<f64>>>,
     /// The input behind the input stages.
     seen: Vec<f64>,
     stages: Stages,
 }
 
-/// What is known beforehand of the columns that are asked for.
+/// What is already known of the requested columns.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Beforehand<'a> {
     /// The columns for other values of the same free parameters: those that are the same
@@ -63,10 +63,10 @@ pub(crate) struct Beforehand<'a> {
     pub(crate) behind_input: bool,
 }
 
-/// How the columns move with each free parameter: which columns, and their slopes.
+/// The dependence of the columns on each free parameter: which columns, and their slopes.
 pub struct Moves(Vec<Vec<(usize, Stretch)>>);
 
-/// The regressor of a stage: what it adds for a small gain, over that gain.
+/// The regressor of a stage: its contribution for a small gain, divided by this gain.
 #[must_use]
 pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Vec<f64> {
     Stages::none(data).alone(effect, output)
@@ -121,7 +121,7 @@ fn effect_on(data: &Prepared, term: &FitTerm, record: usize, eta: &[f64]) -> Opt
     Some(column)
 }
 
-/// What an effect remembers at the beginning of a record.
+/// The memory of an effect at the beginning of a record.
 fn before(
     data: &Prepared,
     term: &FitTerm,
@@ -241,7 +241,7 @@ fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(BoucWen
     Some((shape, (0..data.pieces.len()).map(eta0).collect()))
 }
 
-/// Whether the column of a linear term moves with a free parameter of its own.
+/// Whether the column of a linear term depends on a free parameter of its own.
 fn is_searched(free: &[Free], term: TermId) -> bool {
     free.iter().any(|f| f.role.term() == Some(term))
 }
@@ -272,14 +272,15 @@ pub(crate) fn weighted<'a>(
     sum
 }
 
-/// Step of the hysteresis state in a difference: of a smooth column it errs by about this share.
+/// Step of the hysteresis state in a difference quotient; for a smooth column, also its relative
+/// error.
 const ETA_STEP: f64 = 1e-7;
 
 /// The slopes of a term's column in the hysteresis' free parameters, through eta.
 ///
-/// What remembers nothing has one slope in eta at each sample, which every sensitivity
-/// multiplies. Else the column is asked for anew along each, on the records alone on which
-/// that is not zero.
+/// An effect without memory has one slope in eta at each sample, which multiplies every
+/// sensitivity. Otherwise the column is recomputed along each sensitivity, only on records on which
+/// the sensitivity is not zero.
 fn eta_slopes(
     data: &Prepared,
     term: &FitTerm,

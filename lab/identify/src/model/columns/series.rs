@@ -6,7 +6,7 @@ use crate::problem::{Prepared, Stretch};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What an input stage adds to the output of a fitted model.
+/// The contribution of an input stage to the output of a fitted model.
 #[must_use]
 pub fn series_column(
     data: &Prepared,
@@ -87,8 +87,8 @@ impl Difference {
 impl Moves {
     /// Adds the slopes in the shapes and states of the input stages.
     ///
-    /// The state at the start of a record moves that record alone: one difference over all
-    /// records tells the slopes in the states of all of them.
+    /// The state at the start of a record affects that record alone, so one difference over all
+    /// records gives the slopes in the states of all of them.
     pub(super) fn add_series(
         &mut self,
         here: &RawColumns,

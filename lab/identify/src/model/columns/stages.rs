@@ -64,7 +64,8 @@ impl Stages {
         Some(stages)
     }
 
-    /// Sends columns through some of the stages; on a record on which one is zero it stays so.
+    /// Passes columns through some of the stages; a column that is zero on a record stays zero
+    /// there.
     pub(super) fn through<'a>(
         &self,
         columns: impl IntoIterator<Item = &'a mut Stretch>,
@@ -106,7 +107,7 @@ impl Stages {
         column
     }
 
-    /// The slope of a stage in its gain; of all but a delay it is the same at every gain.
+    /// The slope of a stage in its gain; except for a delay, it is the same at every gain.
     fn slope(&self, effect: &Effect<f64>, gain: f64, output: &[f64]) -> Vec<f64> {
         if *effect != Effect::Delay {
             return self.alone(effect, output);
@@ -157,7 +158,7 @@ fn in_blocks(record: &mut [f64], mut through: impl FnMut(&mut EffectState<f64>, 
     }
 }
 
-/// What an output stage reads of a block. Each sample is read just before it is replaced.
+/// The part of a block that an output stage reads. Each sample is read just before it is replaced.
 fn samples(block: &[Cell<f64>], dt: f64) -> impl Iterator<Item = Inputs<f64>> + '_ {
     block.iter().map(move |output| Inputs {
         dt,
@@ -215,7 +216,7 @@ impl RawColumns {
     }
 }
 
-/// What each output stage changes, in their order.
+/// The change made by each output stage, in order.
 pub(crate) fn by_stage(raw: &RawColumns, output: Vec<f64>) -> Vec<Vec<f64>> {
     let mut output = Stretch::from(output);
     let mut changes = Vec::with_capacity(raw.stages.list.len());

@@ -4,8 +4,8 @@ use super::{effect_column, effect_on};
 use crate::model::structure::{FitTerm, Range, Role, TermId};
 use crate::problem::{Prepared, Stretch};
 
-/// Step of a difference, as a share of the parameter's scale. Of a smooth column it errs by about
-/// this share, and by 1e-9 of its size from rounding.
+/// Step of a difference quotient, as a share of the parameter's scale. For a smooth column its
+/// error is about this share, plus 1e-9 of its size from rounding.
 const STEP: f64 = 1e-7;
 
 /// A parameter of a term that its column depends on.
@@ -16,8 +16,8 @@ pub(super) enum Variation {
 }
 
 impl Variation {
-    /// What a free parameter varies of a term; `None` where it belongs to another one, or to
-    /// the transmission.
+    /// The part of a term that a free parameter varies; `None` if the parameter belongs to another
+    /// term or to the transmission.
     pub(super) fn of(own: TermId, role: Role) -> Option<Self> {
         match role {
             Role::Shape { term, index } if term == own => Some(Self::Shape { index }),

@@ -23,34 +23,33 @@ const BOTH_DIRECTIONS: &str = "the same strokes in both directions, at several s
 
 /// One effect.
 pub(crate) struct Entry {
-    /// Its own name, as in the core's catalogue.
+    /// The name of the effect, as in the core's catalogue.
     pub(crate) name: &'static str,
-    /// Rank of its family, from the simplest on: of two rivals the lower one is named.
+    /// Rank of its family, from the simplest on: of two alternatives the lower one is named.
     pub(crate) rank: usize,
-    /// Where it is tried, and at which shapes; a channel for which it has no entry is left out.
+    /// The channels on which it is tried, and the shapes; other channels are left out.
     pub(crate) tried: &'static [Tried],
     /// How it is declared.
     pub(crate) declared: Declared,
     /// The range of each shape, in the core's order.
     pub(crate) bounds: &'static [Bounds],
-    /// Range of the gain of an output stage, which is no linear one; `None` of all others.
+    /// Range of the gain of an output stage, which is not linear; `None` for all others.
     pub(crate) stage: Option<Stage>,
-    /// From where it measures position, if it reads one.
+    /// The origin of the position, if it reads a position.
     pub(crate) zero: Zero,
-    /// Whether that zero is fitted.
+    /// Whether this origin is fitted.
     pub(crate) fitted_zero: FittedZero,
-    /// Whether its gain is a friction coefficient, which takes energy out.
+    /// Whether its gain is a friction coefficient, which dissipates energy.
     pub(crate) takes_energy: bool,
-    /// What a candidate of it is a function of, or stands for.
+    /// The variable that a candidate is a function of or represents.
     pub(crate) on: &'static [On],
     /// Whether a model can have two of it on one channel.
     pub(crate) several: bool,
-    /// What people tell two of it apart by.
+    /// How people distinguish two of them.
     pub(crate) told_by: ToldBy,
-    /// Whether it remembers motion from before the record, so that its start is fitted.
+    /// Whether it remembers motion before the record, so that its initial state is fitted.
     pub(crate) past: bool,
-    /// Why it belongs to the record and is not handed over; `None` where it belongs to the
-    /// rig.
+    /// Why it belongs to the record and is not exported; `None` if it belongs to the rig.
     pub(crate) of_the_record: Option<&'static str>,
     /// The motion that shows it.
     pub(crate) shown_by: &'static str,
@@ -69,18 +68,18 @@ pub(crate) enum Place {
     Whole,
     /// The same, in torque mode without a transmission.
     WholeWithoutTransmission,
-    /// What moves.
+    /// A channel that moves.
     Motion,
-    /// What moves, where the transmitted load is known.
+    /// A channel that moves, if the transmitted load is known.
     LoadedMotion,
-    /// What moves and is the input.
+    /// The input, if it is a motion.
     InputMotion,
-    /// What turns against gravity: an angle in torque mode that covers more than a little.
+    /// A rotation against gravity: an angle in torque mode with a range that is not small.
     Joint,
     /// The input of the torque mode.
     Torque,
-    /// The same, in a record of nothing that moves. With an elastic load the torque's rate is what
-    /// there is of a velocity.
+    /// The same, in a record without a motion channel. With an elastic load, the torque's rate is
+    /// the only substitute for a velocity.
     TorqueAlone,
     /// The stretch of a cable.
     Stretch,
@@ -96,7 +95,7 @@ pub(crate) enum Trials {
     At(&'static [&'static [Scale]]),
     /// The positions below which the channel stays for these shares of the time.
     Quantiles(&'static [f64]),
-    /// Time constants \[s\] that the motion does not already fill.
+    /// Time constants \[s\] that the motion does not already cover.
     TimeConstants(&'static [f64]),
     /// The strongest lines of the residual's order spectrum.
     Orders,
@@ -108,13 +107,13 @@ pub(crate) enum Trials {
 /// its input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stage {
-    /// So many periods of the cut-off \[s\].
+    /// A number of periods of the cut-off \[s\].
     Periods(f64),
     /// This number: a lag with a gain of 1 is a whole low-pass.
     Number(f64),
 }
 
-/// From where an effect measures position.
+/// The origin from which an effect measures position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Zero {
     /// The middle of the channel.
@@ -123,11 +122,11 @@ pub(crate) enum Zero {
     Sensor,
 }
 
-/// Whether the zero from which an effect measures position is fitted: only where moving it is
-/// not the same as adding what the model has anyway.
+/// Whether the origin from which an effect measures position is fitted: only if moving the origin
+/// differs from adding terms that the model already has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FittedZero {
-    /// Never: all that it could add are effects of their own.
+    /// Never: everything that it could add is a separate effect.
     Never,
     /// Always.
     Always,
@@ -159,10 +158,10 @@ pub(crate) enum Declared {
     Never,
 }
 
-/// What a candidate is a function of.
+/// The variable of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum On {
-    /// What the core says that it reads, the fastest first.
+    /// The quantities that it reads according to the core, the fastest first.
     Read,
     /// The position, with the sign of the velocity.
     DirectedPosition,
@@ -174,10 +173,10 @@ pub(crate) enum On {
     Reversal,
 }
 
-/// Strokes over the whole range show what needs nothing else.
+/// Strokes over the whole range: the motion for effects that need nothing else.
 const WHOLE_RANGE: &str = "strokes over the whole range, in both directions";
 
-/// An effect without shapes that is tried nowhere; what an entry does not name is as here.
+/// An effect without shapes that is tried nowhere: the defaults of an entry.
 const PLAIN: Entry = Entry {
     name: "",
     rank: 0,
@@ -208,7 +207,7 @@ pub(crate) fn table() -> impl Iterator<Item = &'static Entry> {
     whole::WHOLE.iter().chain(motion::MOTION)
 }
 
-/// The entry of an effect; `None` of one that the table lacks, which a test excludes.
+/// The entry of an effect; `None` if the table lacks it, which a test excludes.
 pub(crate) fn entry(name: &str) -> Option<&'static Entry> {
     table().find(|entry| entry.name == name)
 }
@@ -220,7 +219,7 @@ pub(crate) fn first_of(family: &str) -> Option<&'static Entry> {
     entry(first.name)
 }
 
-/// Rank of an effect's family among rivals, of which the lowest is named.
+/// Rank of an effect's family among alternatives, of which the lowest is named.
 pub(crate) fn rank(name: &str) -> usize {
     entry(name).map_or(CATALOGUE.len(), |entry| entry.rank)
 }
@@ -230,8 +229,7 @@ pub(crate) fn shown_by(name: &str) -> &'static str {
     entry(name).map_or(WHOLE_RANGE, |entry| entry.shown_by)
 }
 
-/// Why a family belongs to the record that it was found on; `None` where it belongs to the
-/// rig.
+/// Why a family belongs to the record on which it was found; `None` if it belongs to the rig.
 pub(crate) fn of_the_record(family: Family) -> Option<&'static str> {
     let is_of = |entry: &&Entry| info(entry.name).is_some_and(|info| info.family == family);
     table().find(is_of)?.of_the_record
@@ -242,7 +240,7 @@ fn info(name: &str) -> Option<&'static Info> {
     all.find(|info| info.name == name).copied()
 }
 
-/// A joint that covers less than this about its middle does not show gravity \[rad\].
+/// A joint whose range about its middle is smaller than this does not show gravity \[rad\].
 const LEAST_SWING: f64 = 0.3;
 
 /// Whether anything in a record moves.

@@ -6,7 +6,7 @@ use crate::problem::{Channel, Prepared};
 /// A trial shape, in units of the record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scale {
-    /// As it stands.
+    /// Unscaled.
     Number(f64),
     /// Times the channel's usual speed.
     Speed(f64),
@@ -40,9 +40,9 @@ impl Scale {
 /// The range over which a shape is fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Bounds {
-    /// Logarithmic, as it stands.
+    /// Logarithmic, unscaled.
     Number(f64, f64),
-    /// Linear, as it stands.
+    /// Linear, unscaled.
     Linear(f64, f64),
     /// Logarithmic, times the channel's usual speed.
     Speed(f64, f64),
@@ -54,9 +54,9 @@ pub(crate) enum Bounds {
     Path(f64, f64),
     /// Logarithmic, times the value from which the fit starts.
     Value(f64, f64),
-    /// From so many samples to so many strokes, logarithmic \[s\].
+    /// From a number of samples to a number of strokes, logarithmic \[s\].
     SamplesToStrokes(f64, f64),
-    /// From so many samples to that share of the record, logarithmic \[s\].
+    /// From a number of samples to a share of the record, logarithmic \[s\].
     SamplesToRecord(f64, f64),
     /// The half-range about the origin.
     WithinReach,
@@ -64,7 +64,7 @@ pub(crate) enum Bounds {
     FitSegment,
     /// A phase.
     Phase,
-    /// It is not fitted.
+    /// Not fitted.
     Held,
 }
 
@@ -102,7 +102,7 @@ impl Bounds {
     }
 }
 
-/// The path that the input has covered.
+/// The path length of the input.
 fn path(data: &Prepared) -> f64 {
     data.path.last().copied().unwrap_or(1.0)
 }
