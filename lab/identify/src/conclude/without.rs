@@ -7,11 +7,12 @@ use nalgebra::{DMatrix, DVector};
 /// that block alone.
 const ALONE: f64 = 30.0;
 
-/// How far each parameter moves where the rows with this score are left out and the others have this
-/// Gram matrix; `None` where it is known from those rows alone, as eta0 is from the first ones.
+/// The change of each parameter if the rows with this score are left out and the others have this
+/// Gram matrix; `None` if those rows alone determine the parameter, as the first rows determine
+/// eta0.
 ///
-/// Such a parameter stays where it is: if it were free, the others would go with it wherever what little
-/// the rest knows of it leads, up to a hundred times as far as they do.
+/// Such a parameter is held fixed. If it were free, the rest of the record would determine it
+/// poorly, and the other parameters would follow it, up to a hundred times as far.
 pub(super) fn moved_without(
     rest: &DMatrix<f64>,
     score: &DVector<f64>,

@@ -5,7 +5,7 @@ use crate::record::Mode;
 use bowden::effect::Effect;
 use bowden::model::Source;
 
-/// What a channel is to the effects, told from its name.
+/// The kind of a channel for the effects, determined from its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// An angle or a displacement: something moves.

@@ -62,7 +62,7 @@ impl Mechanism {
         }
     }
 
-    /// What its force is drawn over.
+    /// The variable over which its force is plotted.
     pub(crate) fn variable(self, source: Source) -> Variable {
         match self {
             Self::Friction => Variable::Velocity(source),

@@ -29,7 +29,7 @@ pub enum Role {
         /// Which term.
         term: TermId,
     },
-    /// What a term remembers from before a record.
+    /// The memory of a term from before a record.
     Start {
         /// Which term.
         term: TermId,
@@ -71,8 +71,8 @@ impl Role {
 /// A non-linear parameter and its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Free {
-    /// What it is.
+    /// The role of the parameter.
     pub role: Role,
-    /// Where it may lie.
+    /// Its range.
     pub range: Range,
 }

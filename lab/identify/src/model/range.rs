@@ -61,8 +61,8 @@ impl Range {
         }
     }
 
-    /// By how much a value has to change to be another one, as the range counts: its width, or
-    /// the value times the logarithm of the bounds' ratio.
+    /// The scale on which a change of a value counts: the width of the range, or the value times
+    /// the logarithm of the bounds' ratio.
     #[must_use]
     pub fn scale(self, value: f64) -> f64 {
         match self {
@@ -88,7 +88,7 @@ impl Range {
         self.decode(logit(EDGE))
     }
 
-    /// The bound that is nearer to a value, in words.
+    /// The nearer bound to a value, in words.
     #[must_use]
     pub fn nearest(self, value: f64) -> &'static str {
         if self.encode(value) < 0.0 {

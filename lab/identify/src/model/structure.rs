@@ -11,20 +11,20 @@ pub use super::range::Range;
 pub use super::term::{FitTerm, TermId};
 pub use super::terms::Terms;
 
-/// A model under fit: what is in it, not how large it is.
+/// The structure of a model under fit: its parts, without their gains.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Structure {
-    /// Whether a Bouc-Wen transmission is part of it.
+    /// Whether it contains a Bouc-Wen transmission.
     pub hysteresis: bool,
-    /// How many records have a gain, kappa_eta and offset of their own; 0 where these are
-    /// common to all.
+    /// Number of records with their own gain, kappa_eta and offset; 0 if these are common to all
+    /// records.
     pub own_gains: usize,
-    /// The effects, in the order in which they came.
+    /// The effects, in the order in which they were added.
     pub terms: Terms,
-    /// A curve over one variable, for what has no name.
+    /// A curve over one variable, for a dependence that matches no effect.
     pub table: Option<Table>,
-    /// Whether output stages and input stages are kept out of the search: a model with one
-    /// of them has no inverse.
+    /// Whether the search excludes output stages and input stages: a model with such a stage has no
+    /// inverse.
     pub no_stages: bool,
     /// Whether a delay may be negative. No transmission has a lead: only a test of the clocks of a
     /// record allows one.
@@ -114,8 +114,8 @@ impl Structure {
         free
     }
 
-    /// Whether a term's zero of position can be told from the record: moving it must
-    /// not be the same as adding what the model has anyway.
+    /// Whether the record determines a term's origin of position: moving the origin must differ
+    /// from adding terms that the model already has.
     fn origin_matters(&self, entry: &Entry, term: &FitTerm) -> bool {
         let spanned = |names: &[&str]| {
             names.iter().all(|name| {
@@ -155,16 +155,16 @@ impl Structure {
         self.base() + self.terms.iter().filter(|t| t.is_linear()).count() + self.table_gains()
     }
 
-    /// How many of the linear gains, the last ones, are those of the table.
+    /// Number of linear gains of the table, which are the last ones.
     #[must_use]
     pub fn table_gains(&self) -> usize {
         self.table.as_ref().map_or(0, |table| table.shapes.len())
     }
 
-    /// Of each linear gain the sign that it must not lose, 1 or −1; 0 where it may be either.
+    /// The required sign of each linear gain, 1 or −1; 0 if it may have either sign.
     ///
-    /// Only where the input is a displacement and the output a force: there friction
-    /// takes energy out. In torque mode the sign follows the encoder's mounting.
+    /// Only if the input is a displacement and the output a force: then friction dissipates energy.
+    /// In torque mode the sign depends on the mounting of the encoder.
     #[must_use]
     pub fn signs(&self, data: &Prepared) -> Vec<f64> {
         let mut signs = vec![0.0; self.base()];
@@ -176,7 +176,7 @@ impl Structure {
     }
 }
 
-/// The sign that the gain of a term must not lose; 0 where it may be either.
+/// The required sign of a term's gain; 0 if it may have either sign.
 pub(crate) fn sign(data: &Prepared, term: &FitTerm) -> f64 {
     let friction = entry(term.effect.name()).is_some_and(|entry| entry.takes_energy);
     match (friction && term.source == Source::Input, data.mode) {
@@ -186,7 +186,7 @@ pub(crate) fn sign(data: &Prepared, term: &FitTerm) -> f64 {
     }
 }
 
-/// The records of which the fit sees something: only their states at the start can be told.
+/// The records that are part of the fit segment: only their initial states can be determined.
 fn fitted(data: &Prepared) -> impl Iterator<Item = usize> + '_ {
     let pieces = data.pieces.iter().take(MOST_RECORDS).enumerate();
     pieces.filter(|(_, p)| p.fitted).map(|(record, _)| record)

@@ -8,9 +8,9 @@ use nalgebra::{DMatrix, DVector};
 /// A curve between knots, linear in its gains: one column for each of its shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// What it is a function of.
+    /// The variable of the curve.
     pub variable: Variable,
-    /// Where, in rising order.
+    /// The knots, in ascending order.
     pub knots: Vec<f64>,
     /// Values at the knots, for a gain of one each.
     pub shapes: Vec<Vec<f64>>,
@@ -22,7 +22,8 @@ impl Table {
         format!("curve over {}", self.variable.words(data))
     }
 
-    /// What the core's [curve](bowden::effect::CurvePosition) of it is over; `None` where the core has none.
+    /// The variable of the core's [curve](bowden::effect::CurvePosition) for it; `None` if the core
+    /// has no such curve.
     pub(crate) fn over(&self) -> Option<Quantity> {
         match self.variable {
             Variable::Position(_) => Some(Quantity::Position),
@@ -60,7 +61,8 @@ impl Table {
         fewer.map_or_else(|| self.clone(), |(fewer, _)| fewer)
     }
 
-    /// The curve over some of the points that errs least at all of them, and its squared error.
+    /// The curve over some of the points with the smallest error at all points, and its squared
+    /// error.
     fn through(&self, points: &[(f64, f64)], kept: &[usize]) -> Option<(Self, f64)> {
         let (all, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let mut curve = Self {
@@ -75,7 +77,7 @@ impl Table {
         Some((curve, (hats * own - values).norm_squared()))
     }
 
-    /// One column a shape, on the work grid.
+    /// One column per shape, on the work grid.
     #[must_use]
     pub fn columns(&self, data: &Prepared, eta: &[f64]) -> Option<Vec<Vec<f64>>> {
         let values = self.variable.values(data, eta)?;

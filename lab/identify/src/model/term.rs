@@ -5,7 +5,7 @@ use crate::problem::MOST_RECORDS;
 use bowden::effect::Effect;
 use bowden::model::Source;
 
-/// The identity of a term among all that its structure ever had.
+/// The identity of a term among all terms that its structure has ever had.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct TermId(pub(super) u32);
 
@@ -18,13 +18,13 @@ pub struct FitTerm {
     pub source: Source,
     /// The origin from which it measures position.
     pub origin: f64,
-    /// How far the channel had moved just before each record began: what an effect with
-    /// memory remembers of that is unknown and is fitted.
+    /// The motion of the channel just before each record: an effect with memory depends on this
+    /// unknown motion, so it is fitted.
     pub start: [f64; MOST_RECORDS],
 }
 
 impl FitTerm {
-    /// Whether its gain is one of the linear ones: that of an output stage acts on all
+    /// Whether its gain is one of the linear gains: the gain of an output stage acts on all
     /// columns, and an input stage has a gain of one.
     #[must_use]
     pub fn is_linear(&self) -> bool {

@@ -4,11 +4,11 @@ use super::parameter::{Free, Role};
 use super::term::{FitTerm, TermId};
 use std::ops::Deref;
 
-/// Terms in the order in which they came.
+/// Terms in the order in which they were added.
 ///
-/// They are read as a slice; [`push`](Self::push) adds a term and gives it its identity. An
-/// identity is never given again, nor by a clone that takes the place of the original. Two
-/// clones that both go on may give one identity to different terms.
+/// They are read as a slice; [`push`](Self::push) adds a term and assigns its identity. An identity
+/// is never assigned twice, not even by a clone that replaces the original. Two clones that both
+/// continue may assign one identity to different terms.
 #[derive(Debug, Clone, Default)]
 pub struct Terms {
     own: Vec<FitTerm>,
@@ -60,21 +60,21 @@ impl Terms {
         id
     }
 
-    /// Takes a term out, if it is there; the others keep their identities.
+    /// Removes a term, if present; the others keep their identities.
     pub fn remove(&mut self, id: TermId) -> Option<FitTerm> {
         let place = self.place(id)?;
         self.ids.remove(place);
         Some(self.own.remove(place))
     }
 
-    /// Takes all terms out but those that `stays` names.
+    /// Removes all terms except those that `stays` selects.
     pub fn retain(&mut self, mut stays: impl FnMut(&FitTerm) -> bool) {
         let mut kept = self.own.iter().map(&mut stays);
         self.ids.retain(|_| kept.next().unwrap_or(false));
         self.own.retain(stays);
     }
 
-    /// Takes all terms out but the first ones.
+    /// Removes all terms except the first ones.
     pub fn truncate(&mut self, count: usize) {
         self.own.truncate(count);
         self.ids.truncate(count);
@@ -106,13 +106,13 @@ impl Terms {
         self.ids.iter().copied().zip(&self.own)
     }
 
-    /// The place of a term; `None` where it is no longer there.
+    /// The position of a term; `None` if the term has been removed.
     #[must_use]
     pub fn place(&self, id: TermId) -> Option<usize> {
         self.ids.iter().position(|own| *own == id)
     }
 
-    /// A term by its identity; `None` where it is no longer there.
+    /// A term by its identity; `None` if the term has been removed.
     #[must_use]
     pub fn find(&self, id: TermId) -> Option<&FitTerm> {
         self.own.get(self.place(id)?)
@@ -126,8 +126,8 @@ impl Terms {
         }
     }
 
-    /// The terms at the values of their free parameters; `None` where the core does not admit
-    /// one. Values of terms that are not there go nowhere.
+    /// The terms at the values of their free parameters; `None` if the core rejects one. Values of
+    /// removed terms are ignored.
     #[must_use]
     pub fn at(&self, free: &[Free], values: &[f64]) -> Option<Self> {
         let mut all = self.clone();
@@ -153,7 +153,7 @@ impl Terms {
     }
 
     /// Takes over the identities of the first terms of another model, which are the same effects
-    /// in the same order, and tells the parameters.
+    /// in the same order, and updates the parameters.
     pub(crate) fn recognise(&mut self, free: &mut [Free], other: &Self) {
         for f in free {
             let place = f.role.term().and_then(|id| self.place(id));

@@ -8,7 +8,7 @@ use bowden::effect::Motion;
 use bowden::model::Source;
 use std::ops::Range;
 
-/// A motion back by this share of the half-range is a reversal; less is the sensor's.
+/// A return by this share of the half-range is a reversal; a smaller one is due to the sensor.
 const REVERSAL: f64 = 0.002;
 
 /// A quantity that is measured or follows from what is measured.
@@ -24,9 +24,9 @@ pub enum Variable {
     DirectedPosition(Source),
     /// The load, with the sign of the channel's velocity.
     DirectedLoad(Source),
-    /// The way since the motion last reversed.
+    /// The travel since the last reversal.
     ReversalDistance(Source),
-    /// The time since the motion last reversed.
+    /// The time since the last reversal.
     ReversalTime(Source),
     /// The hysteresis state.
     Eta,
@@ -35,7 +35,7 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// All that this record has.
+    /// All variables of this record.
     #[must_use]
     pub fn all(data: &Prepared, hysteresis: bool) -> Vec<Self> {
         let mut all = Vec::new();
@@ -225,7 +225,7 @@ pub(crate) fn turns(channel: &Channel, record: &Range<usize>, back: f64) -> Vec<
     turns
 }
 
-/// Way and time since the channel last reversed in a record; before its first turn the
+/// Travel and time since the channel's last reversal in a record; before the first reversal, the
 /// largest of all.
 fn since_reversal(channel: &Channel, record: &Range<usize>, dt: f64) -> (Vec<f64>, Vec<f64>) {
     let turns = turns(channel, record, REVERSAL * channel.reach);

@@ -6,26 +6,26 @@ use crate::algebra::{Span, Stretch};
 use nalgebra::DVector;
 use std::ops::Range;
 
-/// Less of the output than this does not say which way it counts.
+/// Least share of the output that determines its sign.
 const PLAIN: f64 = 0.01;
-/// A spring whose force comes late seems to give energy; with a part in phase with the position
-/// that is more than so many times the part with the velocity, that is what it is.
+/// A spring whose force is delayed appears to supply energy. If the part in phase with the position
+/// exceeds the part in phase with the velocity by more than this factor, it is such a spring.
 const SPRING: f64 = 2.0;
-/// An acceleration of which less than this share is left beside the position, as in a motion of
-/// one tone, does not tell a mass from a spring.
+/// If less than this share of the acceleration is independent of the position, as in a motion of
+/// one tone, the acceleration does not distinguish a mass from a spring.
 const ALIKE: f64 = 0.1;
 
-/// What is said of such an output.
+/// The note on such an output.
 pub(super) fn words(output: &str, input: &str) -> String {
     format!("`{output}` has the opposite sign to the motion of `{input}`: friction has a negative gain here")
 }
 
-/// Whether the output gives energy to the motion instead of taking it, as friction and hysteresis do
-/// where a force is measured with the other sign. `seen` is what the fit may see, on the work
-/// grid.
+/// Whether the output supplies energy to the motion instead of dissipating it, as friction and
+/// hysteresis appear to do if a force is measured with the opposite sign. `seen` are the samples
+/// that the fit may use, on the work grid.
 ///
-/// The sign is that of the velocity's gain where position, velocity and acceleration are
-/// fitted together: what only stores energy has no share in it.
+/// The sign is that of the gain of the velocity if position, velocity and acceleration are fitted
+/// together: parts that only store energy do not contribute to it.
 pub(super) fn against(
     input: &Channel,
     output: &[f64],

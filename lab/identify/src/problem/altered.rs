@@ -3,17 +3,17 @@
 use super::Prepared;
 use bowden::effect::Motion;
 
-/// What may have been done to the channels of one record.
+/// A possible alteration of the channels of one record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Alteration {
-    /// A channel counts the other way.
+    /// A channel has the opposite sign.
     Turned(usize),
-    /// Two channels stand in each other's place.
+    /// Two channels are swapped.
     Swapped(usize, usize),
 }
 
 impl Alteration {
-    /// The channels that it touches.
+    /// The channels that it affects.
     fn channels(self) -> impl Iterator<Item = usize> {
         let (first, second) = match self {
             Self::Turned(channel) => (channel, None),
@@ -57,7 +57,7 @@ impl Prepared {
         all
     }
 
-    /// The samples on the work grid that belong to rows of the fit segment and the stop-check.
+    /// The samples on the work grid that belong to rows of the fit and selection segments.
     fn used(&self) -> Vec<usize> {
         let rows = self.split.fit.iter().chain(&self.split.selection);
         rows.filter_map(|row| {

@@ -7,13 +7,13 @@ use super::{filtered, Prepared, ZeroPhase};
 use crate::record::{Column, Record};
 
 impl Prepared {
-    /// What `target` would be if the output of each record had these values: one a sample.
+    /// The `target` for an output of each record with these values, one per sample.
     ///
-    /// As by preparing the records anew with their input, their cut-off and that output, without
-    /// what is the same.
+    /// Equivalent to preparing the records again with their input, their cut-off and this output,
+    /// without repeating what is the same.
     ///
     /// # Errors
-    /// One sentence where these are not the records that were prepared.
+    /// One sentence if these are not the records that were prepared.
     pub(crate) fn answered(
         &self,
         records: &[Record],

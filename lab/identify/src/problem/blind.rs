@@ -4,13 +4,13 @@ use crate::record::{self, Column, Defect, DefectKind, Record};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Spikes longer than this share of a period of the cut-off are left out: a line through
-/// shorter ones errs by less than what the filter lets through.
+/// Spikes longer than this share of a period of the cut-off are left out. For shorter ones, the
+/// error of a line is smaller than what the filter passes.
 const LONG: f64 = 0.125;
 
-/// Stretches without a measurement, which are left out of the fit, each with how much
-/// beside it goes with it: a clipped top is off by little, and so is what the filter
-/// carries beyond it, but a line through a stuck stretch is as wrong as the record's ends.
+/// Stretches without a measurement, which are left out of the fit, each with the margin that is
+/// left out with it. The error of a clipped top is small, and so is the part that the filter
+/// spreads beyond it; but a line through a stuck stretch is as wrong as the ends of the record.
 ///
 /// `period` and `edge` are in estimation samples, a period of the cut-off has `samples` of the
 /// record.
@@ -34,8 +34,8 @@ pub(super) fn blind(
     })
 }
 
-/// A column with a line through its spikes and the stretches where its sensor was stuck: else
-/// the filter would carry the leap at their end beyond them.
+/// A column with a line through its spikes and through the stretches on which its sensor was stuck;
+/// otherwise the filter would spread the jump at their end beyond them.
 pub(super) fn bridged<'a>(record: &'a Record, column: &'a Column) -> Cow<'a, [f64]> {
     let stands_in = |d: &&Defect| matches!(d.kind, DefectKind::Stuck | DefectKind::Spike);
     let own = record.defects.iter().filter(stands_in);

@@ -11,7 +11,7 @@ use crate::record::{Column, Defect, Mode, Record};
 use bowden::effect::Motion;
 use std::ops::Range;
 
-/// Rates further apart than this are not brought onto one grid: most of it would be
+/// Records whose rates differ by more than this factor are not put on one grid: most of it would be
 /// interpolation.
 const RATES_APART: f64 = 16.0;
 
@@ -62,13 +62,13 @@ impl Prepared {
     /// Puts a record on its grids.
     ///
     /// # Errors
-    /// One sentence where the record is too short for the cut-off.
+    /// One sentence if the record is too short for the cut-off.
     pub fn new(record: &Record, preparation: Preparation) -> Result<Self, String> {
         Self::joined(std::slice::from_ref(record), preparation, HeldOut::Trailing)
     }
 
-    /// Puts several records of one rig behind each other on common grids: one step, one
-    /// cut-off. The records have the same mode and the same channels in the same order.
+    /// Puts several records of one rig one after another on common grids: one step, one cut-off.
+    /// The records have the same mode and the same channels in the same order.
     ///
     /// The step is that of the fastest record; slower ones are interpolated by cubics.
     /// Of a record that is held out as a whole nothing is fitted, not even its state at
@@ -76,8 +76,8 @@ impl Prepared {
     /// not counted.
     ///
     /// # Errors
-    /// One sentence where a record is too short for the cut-off or cannot be put on a
-    /// common grid; it names the file where there are several.
+    /// One sentence if a record is too short for the cut-off or cannot be put on a common grid; it
+    /// names the file if there are several.
     pub fn joined(
         records: &[Record],
         preparation: Preparation,
@@ -294,7 +294,7 @@ fn without_rest(
     rest::moving(&signals.collect::<Vec<(Vec<f64>, f64)>>(), grid.edge)
 }
 
-/// The records so far, behind each other.
+/// The records so far, one after another.
 #[derive(Default)]
 struct Collected {
     pieces: Vec<Piece>,
@@ -328,7 +328,7 @@ impl Collected {
         }));
     }
 
-    /// What is wrong with a record; of several, each says its file.
+    /// The defects of a record; with several records, each defect names its file.
     fn blame(&mut self, record: &Record, several: bool) {
         self.defects.extend(record.defects.iter().map(|defect| {
             let mut own = defect.clone();
@@ -440,8 +440,8 @@ impl Collected {
     }
 }
 
-/// The input's travelled distance up to each estimation sample; from one record to the
-/// next nothing is travelled.
+/// The distance travelled by the input up to each estimation sample; the transition from one record
+/// to the next counts as zero.
 fn path(input: &Channel, pieces: &[Piece], stride: usize) -> Vec<f64> {
     let mut travelled = 0.0;
     let mut path = Vec::new();
@@ -459,7 +459,7 @@ fn path(input: &Channel, pieces: &[Piece], stride: usize) -> Vec<f64> {
     path
 }
 
-/// The row of a record from which on its start is forgotten.
+/// The row of a record after which its start no longer matters.
 fn settled(piece: &Piece, path: &[f64], distance: f64) -> usize {
     let begin = path[piece.rows.start];
     let most = piece.rows.start + (LEFT_OUT * piece.rows.len() as f64) as usize;
@@ -483,7 +483,7 @@ fn common_floor(noise: impl Iterator<Item = (f64, usize)>) -> f64 {
     }
 }
 
-/// What is beyond nine digits is rounding.
+/// Digits beyond the ninth are rounding.
 fn nine_digits(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }

@@ -56,7 +56,7 @@ pub(crate) struct Beforehand<'a> {
     /// The columns for other values of the same free parameters: those that are the same
     /// for all values are taken from there.
     pub(crate) last: Option<&'a RawColumns>,
-    /// Whether the slopes will be asked for as well: they come in one pass with the value.
+    /// Whether the slopes will be requested as well: they are computed in one pass with the value.
     pub(crate) slopes: bool,
     /// Whether only parameters of input stages differ from those of `last`, and the columns
     /// are asked for as they are before the output stages.
