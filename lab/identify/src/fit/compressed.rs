@@ -1,22 +1,23 @@
 //! A Jacobian with only as many rows as parameters.
 //!
 //! Levenberg-Marquardt asks only for products of the residual and of the Jacobian's columns with
-//! each other. They are the same in any orthonormal basis of these columns; the solver gets them
-//! in a basis whose first vector is the residual. There only the first entry of the residual is
-//! not zero, whatever the Jacobian: so it is known before that is asked for.
+//! each other. These products are the same in any orthonormal basis of the columns; the solver
+//! gets them in a basis whose first vector is the residual. In this basis only the first entry of
+//! the residual is not zero, whatever the Jacobian, so it is known before the Jacobian is needed.
 //!
-//! The slopes lose their part in the columns of the model first (Kaufman, 1975). For one file that
-//! is done on all rows. For several files the slopes, the columns of the model and the residual
-//! are written in the basis of their [`Span`] before: what belongs to one file is added first and
-//! stays on its own rows, so that this costs in proportion to the rows.
+//! The slopes are first projected off the columns of the model (Kaufman, 1975). For one file this
+//! is done on all rows. For several files, the slopes, the columns of the model and the residual
+//! are first written in the basis of their [`Span`]: columns of a single file are added first and
+//! stay on its own rows, so the cost is proportional to the number of rows.
 
 use crate::algebra::{take_off, Span, Stretch};
 use nalgebra::{DMatrix, DVector};
 
-/// A column below this share of its norm beside the others has no vector of its own: rounding.
+/// A column whose remainder after the others is below this share of its norm gets no basis vector:
+/// the remainder is rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// The residual in the solver's basis, for so many parameters.
+/// The residual in the solver's basis, for this number of parameters.
 pub(super) fn residual(norm: f64, parameters: usize) -> DVector<f64> {
     let mut small = DVector::zeros(parameters + 1);
     small[0] = norm;

@@ -23,7 +23,7 @@ use starts::starts;
 pub use starts::Known;
 
 /// Fits a structure: short searches from all starts on a coarse grid, then full searches from
-/// the best three, those that meet in one optimum once.
+/// the best three, of which those that reach one optimum are searched once.
 ///
 /// `from` is the optimum of the round before (its structure is a prefix of this one).
 /// `stage_gain` starts the gain of an output stage that is new.
@@ -80,7 +80,7 @@ pub fn fit_from(
     choose(settled)
 }
 
-/// Tolerance of the searches on the coarse grid after which optima are told apart.
+/// Tolerance of the searches on the coarse grid after which optima are distinguished.
 const CLOSE: f64 = 1e-6;
 /// Two searches have reached one optimum where their squared errors differ by less than this
 /// share, a hundred times the tolerance ...

@@ -7,7 +7,7 @@ use crate::model::structure::{Free, Structure};
 use crate::problem::{Prepared, Stretch};
 use std::sync::Arc;
 
-/// What the fit does not see between two records \[s\].
+/// A gap between two records, which is not part of the fit segment \[s\].
 struct Gap {
     /// From a period of the cut-off after the last sample that is fitted: what comes earlier
     /// reaches that through the filter.
@@ -31,7 +31,7 @@ impl Gap {
         })
     }
 
-    /// A step in time that lies in the gap may lie anywhere in it: where the record begins.
+    /// A step in time within the gap may lie anywhere in it; it is put where the record begins.
     fn settled(&self, t: f64) -> f64 {
         match self.from < t && t < self.to {
             true => self.begins,
@@ -97,8 +97,8 @@ pub(crate) fn settle(
     })
 }
 
-/// The best on the stop-check among the optima within 5 %. Optima with two shapes on bounds are
-/// refused unless there is no other.
+/// The best optimum on the selection segment among those within 5 %. Optima with two shapes on
+/// bounds are rejected unless there is no other.
 pub(super) fn choose(mut settled: Vec<Solution>) -> Option<Solution> {
     if settled.iter().any(|s| s.shapes_on_bound() < 2) {
         settled.retain(|s| s.shapes_on_bound() < 2);

@@ -3,8 +3,8 @@
 //! In torque mode `tau_o = B·tau_i − kappa_eta·eta − T0` rises with `tau_i` on every branch
 //! where `2·sigma·rho·kappa_eta <= B` ([`Transmission::inverse`]). For a given shape that is
 //! a cone over the two gains B and kappa_eta, so the linear solve of each step can keep it
-//! exactly: on its edge B is `2·sigma·rho·kappa_eta` and the columns of the input and of eta
-//! are one column. The search then runs over shapes and never leaves what can be inverted.
+//! exactly: on its edge B is `2·sigma·rho·kappa_eta`, and the columns of the input and of eta
+//! are one column. The search then runs over shapes and never leaves the invertible range.
 //!
 //! [`Transmission::inverse`]: bowden::transmission::Transmission::inverse
 

@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-/// Signals that go through the filter at once.
+/// Number of signals that are filtered at once.
 pub(crate) const ABREAST: usize = 8;
 
 /// One second-order section in transposed direct form II.
@@ -32,27 +32,27 @@ impl Section {
         }
     }
 
-    /// The state in which a constant input of one stays a constant output of one.
+    /// The state for which a constant input of one gives a constant output of one.
     fn settled(&self) -> [f64; 2] {
         let z1 = self.b[2] - self.a[1];
         [self.b[1] - self.a[0] + z1, z1]
     }
 }
 
-/// Rows that go through one section before the other: few enough to stay in the nearest cache.
+/// Rows that pass one section before the next: few enough to stay in the nearest cache.
 const BLOCK: usize = 64;
-/// What a recursion remembers below this is taken for zero.
+/// The memory of a recursion is set to zero below this value.
 ///
-/// Where a signal is zero for long, it would otherwise decay to denormal floats, with which each
-/// operation takes many times as long. From here no section gets there within a block.
+/// If a signal is zero for a long time, the memory would otherwise decay to denormal floats, which
+/// make each operation many times slower. From this value no section reaches them within a block.
 const SILENT: f64 = 1e-200;
 
-/// Whether a number is taken for zero where a recursion remembers it.
+/// Whether a recursion sets this value of its memory to zero.
 pub(crate) fn is_silent(value: f64) -> bool {
     value.abs() < SILENT
 }
 
-/// One section at work on `W` signals abreast.
+/// One section that processes `W` signals in parallel.
 struct Running<const W: usize> {
     section: Section,
     memory: [[f64; W]; 2],
@@ -66,7 +66,7 @@ impl<const W: usize> Running<W> {
         Self { section, memory }
     }
 
-    /// Filters the rows in place, in the order in which they come.
+    /// Filters the rows in place, in their order.
     #[inline(always)]
     fn through<'a>(&mut self, rows: impl Iterator<Item = &'a mut [f64; W]>) {
         let Section { b, a } = self.section;
@@ -107,8 +107,8 @@ fn backwards<const W: usize>(running: &mut [Running<W>; 2], rows: &mut [[f64; W]
 
 /// Forwards and backwards over `W` signals, in the widest registers that the processor has.
 ///
-/// The result has the same bits in registers of any width: neither are sums reordered, nor is a
-/// product fused with a sum.
+/// The result has the same bits in registers of any width: no sum is reordered, and no product is
+/// fused with a sum.
 struct BothWays<'a, const W: usize> {
     filter: &'a ZeroPhase,
     signals: [&'a [f64]; W],
@@ -162,9 +162,9 @@ impl ZeroPhase {
 
     /// Every `stride`-th sample of each smoothed signal. The signals have one length.
     ///
-    /// Eight signals go through the recursion abreast: one waits for its own last value at
-    /// every step, eight do not wait for each other. Each comes out bit for bit as from
-    /// [`apply`](Self::apply).
+    /// Eight signals go through the recursion in parallel: one signal waits for its own last value
+    /// at every step, but eight do not wait for each other. Each result equals that of
+    /// [`apply`](Self::apply) bit for bit.
     #[must_use]
     pub fn apply_all(&self, signals: &[&[f64]], stride: usize) -> Vec<Vec<f64>> {
         let mut all = Vec::with_capacity(signals.len());
@@ -179,7 +179,7 @@ impl ZeroPhase {
         all
     }
 
-    /// At most `W` signals; the lanes that are left repeat the first.
+    /// At most `W` signals; unused lanes repeat the first.
     fn some_of<const W: usize>(
         &self,
         group: &[&[f64]],
@@ -257,7 +257,7 @@ impl ZeroPhase {
     }
 }
 
-/// What the smoother leaves of the amplitude at `frequency` \[Hz\].
+/// Amplitude gain of the smoother at `frequency` \[Hz\].
 #[must_use]
 pub fn gain(cutoff: f64, rate: f64, frequency: f64) -> f64 {
     let warped = |f: f64| (PI * f / rate).tan();

@@ -6,9 +6,9 @@ use super::uniform::Uniform;
 use super::ZeroPhase;
 use crate::record::Record;
 
-/// Rms of white noise behind the filter at `cutoff`, estimated from what the
-/// smoother at 2.5 times that took away; `[variance, covariance]` are those of noise of unit variance
-/// and its neighbours on this grid ([`Uniform::noise`]).
+/// RMS of white noise after the filter at `cutoff`, estimated from the part that the smoother at
+/// 2.5 times this cut-off removed; `[variance, covariance]` are the variance of unit white noise,
+/// and the covariance of its neighbours, on this grid ([`Uniform::noise`]).
 pub(super) fn of(
     output: &[f64],
     smoothed: &[f64],
@@ -44,7 +44,7 @@ const SKIRT: f64 = 4.0;
 const NEIGHBOURS: usize = 100;
 
 /// The share of lines (mains hum, a pump, a fan) in the power of a spectrum above a frequency, which
-/// is given as a share of half the rate. They are no noise: behind the filter nothing is left of them.
+/// is given as a share of half the rate. Lines are not noise: the filter removes them completely.
 fn share_of_lines(power: &[f64], from: f64) -> f64 {
     let first = ((from * power.len() as f64) as usize).min(power.len());
     let band = &power[first..];

@@ -1,19 +1,18 @@
 //! From a record to the grid on which everything is computed.
 //!
-//! Time is made uniform, long gaps are masked. One smoother at 2.5 f_c goes over the
-//! input, every channel **and the output**; velocity and acceleration are derived
-//! from the smoothed signals. Then every column of the regression and the output go
-//! through the same zero-phase filter at f_c. So noise cannot make a fake viscous
-//! term or a fake delay.
+//! Time is made uniform, and long gaps are masked. One smoother at 2.5 f_c is applied to the
+//! input, every channel **and the output**; velocity and acceleration are derived from the
+//! smoothed signals. Then every column of the regression and the output pass the same
+//! zero-phase filter at f_c. Noise therefore cannot create a spurious viscous term or delay.
 //!
 //! Three grids: the record's own rate; the *work* grid, on which hysteresis and
 //! effects run (about 24 samples per period of f_c); the *estimation* grid, on which
-//! least squares runs (about 4 per period, since nothing above f_c is left). Starts are
-//! searched on a coarser work grid that ends with the fit segment.
+//! least squares runs (about 4 per period, because the filter removes what is above f_c). Starts
+//! are searched on a coarser work grid that ends with the fit segment.
 //!
-//! Several records of one rig lie behind each other on one set of grids
-//! ([`Prepared::joined`]). Whatever runs along time, a filter, the hysteresis, an effect
-//! with memory, begins anew with each of them.
+//! Several records of one rig follow one another on one set of grids
+//! ([`Prepared::joined`]). A filter, the hysteresis and an effect with memory restart with each
+//! record.
 
 pub use crate::algebra::Stretch;
 use crate::record::{Column, Defect, Mode};
@@ -39,14 +38,14 @@ pub mod spectrum;
 pub mod still;
 mod uniform;
 
-/// At most so many records are fitted together. Each brings unknown states of its own, and every
-/// step of a search factors the matrix of all parameters, which takes the cube of their number.
+/// Maximum number of records that are fitted together. Each adds its own unknown states, and every
+/// step of a search factors the matrix of all parameters, at a cost cubic in their number.
 pub const MOST_RECORDS: usize = 64;
 
-/// Whether so many records can be fitted together.
+/// Checks that this number of records can be fitted together.
 ///
 /// # Errors
-/// One sentence with the limit where they are too many.
+/// One sentence with the limit if there are too many.
 pub fn together(records: usize) -> Result<(), String> {
     match records > MOST_RECORDS {
         true => Err(format!(
@@ -56,7 +55,7 @@ pub fn together(records: usize) -> Result<(), String> {
     }
 }
 
-/// How the record is to be prepared.
+/// How to prepare the record.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Preparation {
     /// Cut-off \[Hz\]; from the spectrum of the input where `None`.
@@ -70,7 +69,7 @@ pub struct Channel {
     pub name: String,
     /// Unit of the position, where the record states one.
     pub unit: Option<String>,
-    /// How it is computed from other measured quantities, where it is none itself.
+    /// How it is computed from other measured quantities, if it is not measured itself.
     pub definition: Option<String>,
     /// Position, velocity and acceleration at each work sample.
     pub motion: Vec<Motion<f64>>,
@@ -82,8 +81,8 @@ pub struct Channel {
     pub reach: f64,
     /// Root mean square of the velocity.
     pub speed: f64,
-    /// Whether it is nothing but its sensor's noise within each record: it then tells at most which
-    /// record it is, and no term of the catalogue reads it.
+    /// Whether it is only its sensor's noise within each record: it then at most identifies the
+    /// record, and no term of the catalogue reads it.
     pub rests: bool,
 }
 
@@ -139,7 +138,7 @@ fn motion(smoothed: &[f64], stride: usize, dt: f64) -> Vec<Motion<f64>> {
         .collect()
 }
 
-/// What of several records is held out.
+/// The held-out part of several records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HeldOut {
     /// The last quarter of each.
@@ -151,14 +150,14 @@ pub enum HeldOut {
     Nothing,
 }
 
-/// One record among those that are fitted together: where it lies on the grids.
+/// One of the records that are fitted together: its position on the grids.
 #[derive(Debug, Clone)]
 pub struct Piece {
-    /// Where it came from, as it is named in messages.
+    /// Its source, as named in messages.
     pub path: String,
     /// Samples after cutting.
     pub samples: usize,
-    /// Rows that were left out because of what they hold.
+    /// Rows that were left out because of their contents.
     pub dropped: usize,
     /// Its own rate \[Hz\], after making time uniform.
     pub rate: f64,
@@ -166,25 +165,26 @@ pub struct Piece {
     pub work: Range<usize>,
     /// Its samples on the estimation grid.
     pub rows: Range<usize>,
-    /// What the records before it take together \[s\].
+    /// Total duration of the records before it \[s\].
     pub since: f64,
-    /// Whether the fit sees any of it.
+    /// Whether any of it is part of the fit segment.
     pub fitted: bool,
     /// Whether its input is nothing but noise.
     pub rests: bool,
-    /// Whether the output follows it row by row all the same.
+    /// Whether the output nevertheless follows the input row by row.
     pub shuffled: bool,
 }
 
-/// The segments: fit and select, stop-check, held out. Trailing, but for a record that is
-/// held out as a whole.
+/// The segments: fit, selection, held-out. They are in this order, except for a record that is held
+/// out as a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Split {
-    /// The first 60 % (80 % where a whole record is held out): parameters are fitted and effects selected here.
+    /// The first 60 % (80 % if a whole record is held out), on which parameters are fitted and
+    /// effects are proposed.
     pub fit: Vec<usize>,
-    /// The next 15 % (20 %): a round must not make this worse.
+    /// The next 15 % (20 %), on which a round must not raise the error.
     pub selection: Vec<usize>,
-    /// The last 25 %, or the last record: seen by nothing, only reported.
+    /// The last 25 %, or the last record, which is only reported and never used.
     pub held_out: Vec<usize>,
 }
 
@@ -209,7 +209,7 @@ pub struct Prepared {
     pub input: Channel,
     /// The other channels.
     pub channels: Vec<Channel>,
-    /// Index into `channels` of a measured load, where there is one.
+    /// Index into `channels` of a measured load, if there is one.
     pub load: Option<usize>,
     /// The output's name and unit.
     pub output_name: String,
@@ -223,19 +223,19 @@ pub struct Prepared {
     pub target_raw: Vec<f64>,
     /// Estimation samples of each segment.
     pub split: Split,
-    /// Whether the output counts against the motion of the input, so that what takes energy out
-    /// of it has a negative gain; not asked in torque mode, where the channels may be mounted
-    /// either way.
+    /// Whether the output has the opposite sign to the motion of the input, so that dissipative
+    /// terms have a negative gain; not tested in torque mode, in which the channels may have either
+    /// sign.
     pub against: bool,
     /// Rms of the output's noise that passes the filter, taken as white.
     pub noise_floor: f64,
-    /// The same over what is held out, which may be a file with another rate.
+    /// The same over the held-out segment, which may be a file with another rate.
     pub held_out_floor: f64,
     /// The input range's travelled distance up to each estimation sample.
     pub path: Vec<f64>,
     /// Remarks for the user.
     pub notes: Vec<String>,
-    /// What is wrong with the measurement itself.
+    /// Defects of the measurement.
     pub defects: Vec<Defect>,
     smoother: ZeroPhase,
 }
@@ -259,7 +259,7 @@ impl Prepared {
         self.pieces.iter().any(|piece| piece.shuffled)
     }
 
-    /// Takes back the note that the output counts against the motion.
+    /// Removes the note that the output has the opposite sign to the motion.
     pub(crate) fn unsay_against(&mut self) {
         let words = against::words(&self.output_name, &self.input.name);
         self.notes.retain(|note| *note != words);
@@ -276,7 +276,7 @@ impl Prepared {
         }
     }
 
-    /// The same record with the stop-check segment among what is fitted.
+    /// The same record, with the selection segment as part of the fit segment.
     #[must_use]
     pub fn with_stop_fitted(&self) -> Self {
         let mut wide = self.clone();
@@ -305,7 +305,7 @@ impl Prepared {
         filtered(&self.smoother, &self.pieces, self.stride, column)
     }
 
-    /// Several columns, each as by [`filtered`](Self::filtered), for less than one by one.
+    /// Several columns, each as by [`filtered`](Self::filtered), at a lower cost than one by one.
     #[must_use]
     pub fn filtered_all(&self, columns: &[&[f64]]) -> Vec<Vec<f64>> {
         filtered_all(&self.smoother, &self.pieces, self.stride, columns)
@@ -320,7 +320,7 @@ impl Prepared {
         filtered_stretches(&self.smoother, &self.pieces, self.stride, &columns)
     }
 
-    /// Time of a row \[s\], with the records behind each other.
+    /// Time of a row \[s\], with the records one after another.
     #[must_use]
     pub fn moment(&self, row: usize) -> f64 {
         let piece = self.pieces.iter().find(|p| p.rows.contains(&row));

@@ -1,18 +1,18 @@
 //! Rest before and after a test.
 //!
 //! Loggers are started early and stopped late. A rest contains no information. But the segments are
-//! shares of the record, and a held-out segment at rest has no standard deviation to compare an
-//! error with.
+//! shares of the record, and a held-out segment at rest has no standard deviation with which to
+//! compare an error.
 
 use std::ops::Range;
 
-/// A signal rests where it stays within this share of its range ...
+/// A signal rests while it stays within this share of its range ...
 const RANGE: f64 = 0.01;
 /// ... and this multiple of its noise, both of the value at that end of the record.
 const NOISE: f64 = 8.0;
 /// Rest is left out from this share of the record on.
 const LEAST: f64 = 0.1;
-/// Fewest rows that have to be left.
+/// Minimum number of rows that must remain.
 pub(super) const FEWEST: usize = 160;
 
 /// The rows of a record but for rest at either end; `edge` of them are left out at each end in
@@ -34,7 +34,7 @@ pub(super) fn moving(signals: &[(Vec<f64>, f64)], edge: usize) -> Range<usize> {
     }
 }
 
-/// The number of rows that all signals rest, counted from one end.
+/// The number of rows, from one end, over which all signals rest.
 fn resting(signals: &[(Vec<f64>, f64)], edge: usize, row: impl Fn(usize) -> usize) -> usize {
     let of = |(values, noise): &(Vec<f64>, f64)| {
         let at_end = (0..edge).map(|k| values[row(k)]).sum::<f64>() / edge as f64;
@@ -48,8 +48,8 @@ fn resting(signals: &[(Vec<f64>, f64)], edge: usize, row: impl Fn(usize) -> usiz
     signals.iter().map(of).min().unwrap_or(0)
 }
 
-/// What is said of rest that is left out at the start and at the end \[s\], and of how long
-/// \[s\] the input rests within its noise.
+/// The notes on rest that is left out at the start and at the end \[s\], and on the time \[s\] for
+/// which the input rests within its noise.
 pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<String> {
     let said = |(is, seconds): (bool, f64), which: &str| {
         is.then(|| format!("in the {which} {seconds:.3} s"))

@@ -65,7 +65,7 @@ impl Prepared {
         }
     }
 
-    /// What the search needs of a record, on the work grid: nothing where it fits nothing.
+    /// The samples of a record that the search needs, on the work grid: none if none is fitted.
     fn seen(&self, piece: &Piece, margin: usize) -> Range<usize> {
         let start = piece.work.start;
         let last = self.split.fit.partition_point(|&row| row < piece.rows.end);

@@ -3,18 +3,18 @@
 use super::{Prepared, ZeroPhase};
 use rustfft::{num_complex::Complex, FftPlanner};
 
-/// The smoother may move the input by at most this share of its half-range: the hysteresis and a
-/// smoother do not commute, so that a corner that is rounded looks like a lag. With 0.1 % a sound rig
-/// that is moved by a triangle is still said to have friction.
+/// The smoother may change the input by at most this share of its half-range: the hysteresis and a
+/// smoother do not commute, so a rounded corner looks like a lag. With 0.1 %, friction is still
+/// reported on a sound rig that is moved by a triangle wave.
 const ROUNDED: f64 = 3e-4;
-/// What it moves is a corner, and not noise, from this many standard deviations on.
+/// From this many standard deviations on, the change is a corner, not noise.
 const CORNER: f64 = 8.0;
-/// More than this share of the half-range is no noise of a sensor, however often the smoother moves it.
+/// A change above this share of the half-range is not sensor noise, however often it occurs.
 const LARGE: f64 = 0.02;
-/// Factor by which the cut-off is raised for corners, until they are seen.
+/// Factor by which the cut-off is raised for corners, until they are resolved.
 const RAISE: f64 = 1.25;
 
-/// About eight times the highest tone of the input \[Hz\], or more where it has corners.
+/// About eight times the highest tone of the input \[Hz\], or more if the input has corners.
 ///
 /// The highest tone is the highest frequency at which the amplitude spectrum (Hann
 /// window, mean removed) reaches a tenth of its peak. The result is kept between
@@ -50,15 +50,15 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
     digits(raw)
 }
 
-/// What the smoother rounds.
+/// The corners that the smoother rounds.
 enum Corner {
-    /// Much more than what it moves elsewhere.
+    /// Much larger than the changes elsewhere.
     Rare,
-    /// So much that it may be noise only of a poor sensor.
+    /// So large that only a poor sensor could have such noise.
     Large,
 }
 
-/// What the smoother that belongs to a cut-off rounds of a signal.
+/// The corners of a signal that the smoother for a cut-off rounds.
 fn rounded(signal: &[f64], rate: f64, cutoff: f64) -> Option<Corner> {
     // Noise is in neither; a smoother that lets twice as much pass stands for the signal itself.
     let narrow = ZeroPhase::new(2.5 * cutoff, rate);

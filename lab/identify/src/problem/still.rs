@@ -9,16 +9,17 @@ use crate::algebra::line;
 
 /// A rest stays within this many standard deviations of the smoothed noise, to either side ...
 const NOISE: f64 = 4.0;
-/// ... for at least so many periods of the cut-off (in fewer the noise goes no way that matters) ...
+/// ... for at least this many periods of the cut-off (in fewer the travel of the noise is small)
+/// ...
 const LONG: f64 = 10.0;
-/// ... and has a standard deviation of at most so many of the noise's: of the fifty values or more
-/// that are independent, three standard deviations of theirs.
+/// ... and has a standard deviation of at most this many of the noise's: three standard deviations
+/// of an estimate from at least fifty independent values.
 const ALONE: f64 = 1.3;
 /// With less noise than this share of it a rest needs no line.
 const LEAST: f64 = 0.4;
 
-/// The standard deviation of the noise of a column, sample by sample, from its fourth
-/// differences: of the smooth motion they see next to nothing, and of spikes their median.
+/// The standard deviation of the noise of a column, per sample, from the median of its fourth
+/// differences: they contain almost nothing of the smooth motion, and the median ignores spikes.
 #[must_use]
 pub fn noise(column: &[f64]) -> f64 {
     let bend = |w: &[f64]| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs();
@@ -38,12 +39,12 @@ fn spread(values: &[f64]) -> f64 {
     (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n).sqrt()
 }
 
-/// Whether a column is nothing but noise.
+/// Whether a column is only noise.
 pub(super) fn is_at_rest(column: &[f64]) -> bool {
     spread(column) <= ALONE * noise(column)
 }
 
-/// What is to be said of a channel that is nothing but noise in each of some records.
+/// The note on a channel that is only noise in each of some records.
 pub(super) fn note(channel: &str, records: usize) -> String {
     match records {
         1 => format!("`{channel}` shows only its sensor's noise: no term reads it"),
@@ -62,22 +63,22 @@ pub(super) fn follows(input: &[f64], output: &[f64]) -> bool {
     2.0 * spread(&left).powi(2) <= spread(output).powi(2)
 }
 
-/// Whether a stretch is noise of that standard deviation, and so is each quarter of it.
+/// Whether a stretch, and each quarter of it, is noise of this standard deviation.
 fn is_noise(stretch: &[f64], noise: f64) -> bool {
     let within = |values: &[f64], most: f64| (LEAST..most).contains(&(spread(values) / noise));
     let mut quarters = stretch.chunks(stretch.len().div_ceil(4));
     within(stretch, ALONE) && quarters.all(|own| within(own, ALONE * ALONE))
 }
 
-/// The input behind the smoother, with a line in the place of long rests; and the samples at rest.
+/// The smoothed input, with a line instead of each long rest, and the samples at rest.
 pub(super) fn smoothed(smooth: &ZeroPhase, input: &[f64], period: f64) -> (Vec<f64>, usize) {
     let mut smoothed = smooth.apply(input);
     let rested = still(&mut smoothed, smooth.noise_gain() * noise(input), period);
     (smoothed, rested)
 }
 
-/// Puts a line in the place of long rests of a smoothed signal, whose noise has that standard
-/// deviation; `period` is that of the cut-off \[samples\]. Returns the samples at rest.
+/// Replaces long rests of a smoothed signal with a line. The noise of the signal has the given
+/// standard deviation; `period` is that of the cut-off \[samples\]. Returns the samples at rest.
 fn still(smoothed: &mut [f64], noise: f64, period: f64) -> usize {
     let (most, long) = (2.0 * NOISE * noise, (LONG * period).ceil() as usize);
     let edge = period.ceil() as usize;

@@ -5,7 +5,8 @@ use std::ops::Range;
 /// Rates that differ by less than this share are one rate: clocks drift by less.
 const SAME_RATE: f64 = 1e-3;
 
-/// A clock is steady where the steps but for a tenth on either side are off by less than this share.
+/// A clock is steady if its steps, except for a tenth at either end of their distribution, deviate
+/// by less than this share.
 const STEADY: f64 = 0.1;
 
 /// The usual step of a record \[s\].
@@ -28,7 +29,7 @@ pub(super) fn usual_step(time: &[f64]) -> f64 {
     format!("{mean:.9e}").parse().unwrap_or(mean)
 }
 
-/// A uniform grid over a record, and where its points lie between the samples.
+/// A uniform grid over a record, and the positions of its points between the samples.
 pub(super) struct Uniform {
     pub(super) dt: f64,
     pub(super) len: usize,
@@ -87,8 +88,8 @@ impl Uniform {
         self.own / self.dt > 1.0 + SAME_RATE
     }
 
-    /// What the grid makes of white noise of unit variance in the samples: its variance, and the
-    /// covariance of neighbours. A point between two samples is the mean of both noises.
+    /// The variance, and the covariance of neighbours, on the grid for samples with white noise of
+    /// unit variance. A point between two samples is the mean of both noises.
     pub(super) fn noise(&self) -> [f64; 2] {
         let Some(position) = &self.position else {
             return [1.0, 0.0];
