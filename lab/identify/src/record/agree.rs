@@ -12,8 +12,8 @@ pub fn is_same_unit(one: &str, other: &str) -> bool {
 /// Brings all records to the channels and the units of the first one.
 ///
 /// # Errors
-/// One line with file and column where a mode, a channel or a unit differs, or where two files hold
-/// the same samples: counted twice they would look like two experiments that agree.
+/// One line with file and column if a mode, a channel or a unit differs, or if two files contain
+/// the same samples: counted twice, they would look like two experiments that agree.
 pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
     let Some((first, others)) = records.split_first_mut() else {
         return Ok(());
@@ -85,10 +85,10 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     Ok(())
 }
 
-/// Brings a column to a unit that `whence` has; what was done, where that changes its values.
+/// Converts a column to the unit of `whence`; returns a note if this changes its values.
 ///
 /// # Errors
-/// One line with file and column where the column has no unit, or one of another kind.
+/// One line with file and column if the column has no unit, or a unit of another kind.
 pub(crate) fn to_unit(
     column: &mut Column,
     unit: &str,
@@ -104,7 +104,7 @@ pub(crate) fn to_unit(
     convert(&wanted, column, whence).map_err(|error| error.in_file(file))
 }
 
-/// Brings a column to the unit of its namesake; says so where that changes its values.
+/// Converts a column to the unit of its namesake; adds a note if this changes its values.
 fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<String>, RecordError> {
     if first.unit == other.unit {
         return Ok(None);

@@ -11,8 +11,8 @@ pub(super) fn is_angle(unit: &str) -> bool {
     factor(unit, UNIT).is_some()
 }
 
-/// Brings channels, and an input that is a displacement, from another unit of angles to radians;
-/// returns what is to be said of it. No effect is a function of the output, which stays as it is.
+/// Converts channels, and an input that is a displacement, from another unit of angle to radians;
+/// returns a note. The output stays as it is, because no effect is a function of it.
 pub(super) fn in_radians(mode: Mode, input: &mut Column, channels: &mut [Column]) -> Vec<String> {
     let input = Some(input).filter(|_| mode == Mode::Displacement);
     let all = input.into_iter().chain(channels);

@@ -2,9 +2,8 @@
 //! gnuplot write it.
 //!
 //! Its rows identify it: blanks separate the numbers, and the rows contain no tab, `;` or `,`. Such
-//! a text is read as one with tabs. Its names may have blanks in them: a unit in brackets belongs
-//! to the name before it, and where that does not give a name for each column, two blanks separate
-//! names.
+//! a text is read as one with tabs. Its names may contain blanks: a unit in brackets belongs to the
+//! name before it, and if that does not give a name for each column, two blanks separate names.
 
 use super::layout::{HEAD, HEAD_BYTES, TABLE};
 use super::number::is_data;
@@ -13,8 +12,8 @@ use std::borrow::Cow;
 /// The separator that stands for blanks.
 const TAB: u8 = b'\t';
 
-/// The text with a tab for the blanks between columns, where blanks separate them; else as it is.
-/// Each line stays the line that it was.
+/// The text with a tab instead of the blanks between columns, if blanks separate them; otherwise
+/// unchanged. The line numbers stay the same.
 pub(super) fn as_tabs(text: &str) -> Cow<'_, str> {
     match width(text) {
         Some(width) => Cow::Owned(tabbed(text, width)),

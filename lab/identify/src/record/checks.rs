@@ -7,7 +7,7 @@ use super::roles::Roles;
 use super::rows::Table;
 use super::Options;
 
-/// Refuses options that cannot be followed with any record.
+/// Rejects options that are invalid for every record.
 pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     let refuse = |message: String| Err(RecordError::new(message));
     if !(options.skip.is_finite() && options.skip >= 0.0) {
@@ -38,8 +38,7 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     }
 }
 
-/// Refuses an input or output that stands still or was clipped heavily, and one in place of the
-/// other.
+/// Rejects an input or output that is constant or heavily clipped, and a swap of the two.
 pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<(), RecordError> {
     let [input, output, ..] = table.values.as_slice() else {
         return Ok(());

@@ -39,8 +39,8 @@ impl fmt::Display for Clipped {
     }
 }
 
-/// Looks for clipping of `signal` so heavy that nothing can be concluded, with the other end
-/// of the transmission beside it.
+/// Looks for clipping of `signal` that is so heavy that nothing can be concluded, using the other
+/// end of the transmission for comparison.
 pub(super) fn heavy(signal: &[f64], other: &[f64]) -> Option<Clipped> {
     let mut ends = ends(signal, other).into_iter();
     ends.find(|clipped| clipped.share >= REFUSED)
@@ -90,7 +90,7 @@ struct Judge<'a> {
     count: f64,
     /// Root mean square of the steps that are not zero.
     usual_step: f64,
-    /// Whether noise moves the signal to and fro between samples.
+    /// Whether noise moves the signal back and forth between samples.
     jitters: bool,
     /// Noise of the other end, from its second differences.
     other_noise: f64,

@@ -52,7 +52,7 @@ pub(super) fn is_minutes(stamp: &str) -> bool {
     stamp.matches(':').count() == 1
 }
 
-/// What may have happened where stamps without a date run backwards.
+/// A possible reason why time stamps without a date decrease.
 pub(super) fn restart(stamp: &str) -> &'static str {
     match (has_date(stamp), is_minutes(stamp)) {
         (true, _) => "",
@@ -86,7 +86,8 @@ fn of_day(time: &str) -> Option<f64> {
     Some(f64::from(60 * minutes) + seconds)
 }
 
-/// What to write in place of a cell that is no stamp; `None` where it does not look like a time.
+/// The form to use instead of a cell that is not a time stamp; `None` if it does not look like a
+/// time.
 pub(super) fn expected(cell: &str) -> Option<&'static str> {
     let digits = cell.starts_with(|c: char| c.is_ascii_digit());
     let upper = cell.to_uppercase();

@@ -11,13 +11,13 @@ use std::borrow::Cow;
 /// UTF-16 without a mark is recognised in this many bytes.
 const PROBE: usize = 1 << 10;
 
-/// The text of a record, from behind its byte-order mark to its last row; every line ends with
-/// `\n`, be it behind a `\r`.
+/// The text of a record, after its byte-order mark, up to its last row; every line ends with `\n`,
+/// possibly after a `\r`.
 pub(super) struct Decoded<'a> {
     pub(super) text: Cow<'a, str>,
     /// Which encoding it was, unless UTF-8.
     pub(super) note: Option<String>,
-    /// Whether the last line ends as a line does; else the file may end within it.
+    /// Whether the last line is terminated; otherwise the file may end within it.
     pub(super) is_ended: bool,
 }
 

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-/// Why a record was refused: ``FILE:LINE: column `NAME`: message``.
+/// Why a record was rejected: ``FILE:LINE: column `NAME`: message``.
 ///
-/// Line and column are left out where the fault has none (a missing file).
+/// Line and column are left out if the fault has none (a missing file).
 /// The text is always one line: control characters in names, in the path or
 /// in the offending cell are escaped, long ones are shortened.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub struct RecordError {
     bad: Option<Bad>,
 }
 
-/// What makes a row one that `--drop-bad` leaves out.
+/// The reason why `--drop-bad` leaves out a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bad {
     /// A cell without a value.
@@ -38,7 +38,7 @@ impl RecordError {
         }
     }
 
-    /// A refusal at a line of the file; 0 where it is not of one line.
+    /// An error at a line of the file; 0 if it does not belong to one line.
     pub(super) fn at(line: usize, message: impl Into<String>) -> Self {
         Self {
             line: (line > 0).then_some(line),
@@ -65,7 +65,7 @@ impl RecordError {
         }
     }
 
-    /// What `--drop-bad` would make of it.
+    /// How `--drop-bad` would treat it.
     pub(super) fn bad(&self) -> Option<Bad> {
         self.bad
     }
@@ -77,7 +77,7 @@ impl RecordError {
         }
     }
 
-    /// The file as it was given, or the label that stands for it.
+    /// The file as given, or its label.
     pub fn file(&self) -> &str {
         &self.file
     }
@@ -92,7 +92,7 @@ impl RecordError {
         self.column.as_deref()
     }
 
-    /// What is wrong, without the place.
+    /// The message, without the location.
     pub fn message(&self) -> &str {
         &self.message
     }

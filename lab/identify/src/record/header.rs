@@ -7,11 +7,11 @@ use super::{number, sizes, units};
 /// At most this many names are listed in a message.
 const LISTED: usize = 24;
 
-/// Jaro-Winkler similarity from which on one name may be meant for another: `x` and `x_mm`
+/// Jaro-Winkler similarity above which one name may have been meant as another: `x` and `x_mm`
 /// have 0.775, `t` and `tau_o` 0.76, `tau_i` and `force` 0.46.
 const ALIKE: f64 = 0.77;
 
-/// A column as the header names it; the name is empty where it has none.
+/// A column as named in the header; the name is empty if it has none.
 pub(super) struct Named {
     pub(super) name: String,
     pub(super) unit: Option<String>,
@@ -25,7 +25,7 @@ pub(super) struct Named {
 const ROS_TIME: &str = "%time";
 
 impl Named {
-    /// Whether it is called as ROS calls its time.
+    /// Whether it has the name of the time in ROS.
     pub(super) fn is_ros(&self) -> bool {
         self.cell == ROS_TIME
     }
@@ -180,7 +180,7 @@ fn of_cell(cell: &str) -> Named {
     }
 }
 
-/// `Force (V)` and `Force (N)` are two columns: where names are the same and cells are not, the
+/// `Force (V)` and `Force (N)` are two columns: if the names are equal and the cells are not, the
 /// cell is the name.
 fn tell_apart(columns: &mut [Named]) {
     let is_apart = |own: &Named| {
@@ -242,7 +242,7 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     Ok(Header::with(line, columns))
 }
 
-/// Index of the column of that name, or the refusal that lists those that exist.
+/// Index of the column of this name, or the error that lists the existing names.
 pub(super) fn require(header: &Header, name: &str, hint: &str) -> Result<usize, RecordError> {
     header.find(name).ok_or_else(|| missing(header, name, hint))
 }
@@ -267,14 +267,14 @@ pub(crate) fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) 
     }
 }
 
-/// The refusal of a name that no column has.
+/// The error for a name that no column has.
 pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
     let meant = nearest(name, header.columns.iter().map(|c| c.name.as_str()));
     let message = format!("no such column among {}{meant}; {hint}", header.list());
     RecordError::at(header.line, message).on(name)
 }
 
-/// Refuses a name that two columns have, where `counts` says that one of them is wanted.
+/// Rejects a name that two columns have, if `counts` says that one of them is needed.
 pub(super) fn twice(header: &Header, counts: impl Fn(usize) -> bool) -> Result<(), RecordError> {
     let mut seen = std::collections::HashMap::new();
     let columns = header.columns.iter().enumerate();

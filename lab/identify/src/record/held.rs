@@ -6,17 +6,17 @@
 
 /// Shortest period of the updates [rows].
 const SHORTEST: f64 = 4.0;
-/// Fewest updates from which their period is taken.
+/// Minimum number of updates that determine their period.
 const FEWEST: usize = 60;
-/// Share of updates that have to lie on the period, to a row.
+/// Share of updates that must lie on the period, to within a row.
 const REGULAR: f64 = 0.95;
 /// Largest share of steps of one count, which a held signal of a fine sensor rarely has.
 const ONE_COUNT: f64 = 0.5;
-/// Beyond so many periods without an update the signal rested, and stays a line.
+/// After this many periods without an update the signal was at rest, and stays a line.
 const RESTED: f64 = 1.5;
 
-/// Replaces stairs by a curve through their edges; returns what is to be said of it. `step` is
-/// the time of one row \[s\].
+/// Replaces stairs with a curve through their edges; returns a note. `step` is the time of one row
+/// \[s\].
 pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String> {
     let edges: Vec<usize> = (1..values.len())
         .filter(|&i| values[i] != values[i - 1])

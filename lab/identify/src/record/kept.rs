@@ -28,7 +28,7 @@ impl Kept {
         }
     }
 
-    /// Whether no stamp comes again among those of the input, and none among those of the output.
+    /// Whether no stamp is repeated among those of the input, nor among those of the output.
     pub(super) fn has_own_stamps(&self) -> bool {
         self.values.iter().take(2).all(|values| {
             let own = values
@@ -47,7 +47,7 @@ impl Kept {
         numbers.map(|(row, _)| row).collect()
     }
 
-    /// Puts the rows in the order of their stamps.
+    /// Sorts the rows by their stamps.
     pub(super) fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.time.len()).collect();
         order.sort_by(|a, b| self.time[*a].total_cmp(&self.time[*b]));
@@ -58,7 +58,7 @@ impl Kept {
         self.lines = order.iter().map(|row| self.lines[*row]).collect();
     }
 
-    /// Takes out these rows, which are in ascending order.
+    /// Removes these rows, which are in ascending order.
     pub(super) fn leave_out(&mut self, rows: impl Iterator<Item = usize>) {
         let mut out = rows.peekable();
         let stays = |row: usize| out.next_if_eq(&row).is_none();
@@ -66,15 +66,15 @@ impl Kept {
         self.leave(&stays);
     }
 
-    /// Leaves the rows that stay.
+    /// Keeps the rows that stay.
     fn leave(&mut self, stays: &[bool]) {
         only(&mut self.time, stays);
         only(&mut self.lines, stays);
         self.values.iter_mut().for_each(|own| only(own, stays));
     }
 
-    /// Leaves the rows with a reading of the end that has fewer of them, within the span of both;
-    /// what is to be said of it.
+    /// Keeps the rows with a reading of the end that has fewer readings, within the span of both;
+    /// returns a note.
     pub(super) fn on_one_grid(
         &mut self,
         [input, output]: &[Vec<usize>; 2],
@@ -106,7 +106,7 @@ impl Kept {
     }
 }
 
-/// Leaves the values of a column that stay.
+/// Keeps the values of a column that stay.
 fn only<T>(column: &mut Vec<T>, stays: &[bool]) {
     let mut stays = stays.iter();
     column.retain(|_| stays.next().is_some_and(|stays| *stays));

@@ -6,23 +6,23 @@
 
 use std::f64::consts::TAU;
 
-/// A leap is this share of the signal's range.
+/// Least size of a jump, as a share of the signal's range.
 const LEAP: f64 = 0.5;
-/// Largest share of the range that the signal usually goes in one sample, up to this quantile.
+/// Largest share of the range that the signal usually moves in one sample, up to this quantile.
 const SLOW: f64 = 0.1;
 const USUAL: f64 = 0.99;
-/// So many times the usual step a leap may differ from a turn.
+/// Maximum difference of a jump from a turn, in usual steps.
 const NEAR: f64 = 4.0;
-/// Where a turn is known no better than this share of it, any length would do.
+/// If the uncertainty of a turn exceeds this share of it, any length would match.
 const SHARP: f64 = 0.05;
-/// Samples on either side of a leap over which others are compared, and the multiple of their
-/// usual change from which they answer it.
+/// Samples on either side of a jump over which other signals are compared, and the multiple of
+/// their usual change from which they respond to it.
 const BESIDE: usize = 5;
 const ANSWERS: f64 = 3.0;
 /// Resolutions of encoders in bits.
 const BITS: std::ops::RangeInclusive<i32> = 8..=24;
 
-/// Takes the leaps out of an angle; returns what is to be said of it.
+/// Removes the jumps from an angle; returns a note.
 pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option<String> {
     let leaps = leaps(angle)?;
     let (turn, shown) = turn(angle, &leaps)?;
@@ -48,7 +48,7 @@ pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option
     ))
 }
 
-/// The samples to which the signal leaps by most of its range.
+/// The samples to which the signal jumps by most of its range.
 fn leaps(signal: &[f64]) -> Option<Vec<usize>> {
     let (low, high) = super::clipping::range(signal);
     let range = high - low;
@@ -64,7 +64,7 @@ fn leaps(signal: &[f64]) -> Option<Vec<usize>> {
     (usual < SLOW * range).then_some(leaps)
 }
 
-/// The known turn that all leaps have, and its name.
+/// The known turn that equals all jumps, and its name.
 fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
     let (low, high) = super::clipping::range(signal);
     let mut near = 0.0_f64;
@@ -91,7 +91,7 @@ fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
     })
 }
 
-/// Whether a signal changes around the leaps by more than elsewhere.
+/// Whether a signal changes more around the jumps than elsewhere.
 fn answers(other: &[f64], leaps: &[usize]) -> bool {
     let change =
         |i: usize| Some((other.get(i + BESIDE)? - other[i.checked_sub(BESIDE + 1)?]).abs());

@@ -1,18 +1,18 @@
 //! Steps so coarse that they shape the signal, as from a converter with few bits.
 //!
 //! The steps of a converter are usually finer than the signal's noise, which makes them harmless.
-//! Here most neighbours are the same, all values lie on a comb, and the steps' own error (q/√12) is
-//! a share of the signal that matters. A commanded staircase looks the same, but the other end
-//! answers each of its steps; behind a coarse sensor it goes on evenly.
+//! Here most neighbouring values are equal, all values lie on a comb, and the error of the steps
+//! (q/√12) is a significant share of the signal. A commanded staircase looks the same, but the
+//! other end responds to each of its steps; with a coarse sensor the other end moves evenly.
 
 use super::super::clipping::range;
 use super::companion::Companion;
 use super::Found;
 use std::ops::Range;
 
-/// Share of the signal's spread from which the error of the steps is told.
+/// Share of the signal's spread from which the error of the steps is reported.
 const TOLD: f64 = 0.02;
-/// Share from which it spoils the conclusion.
+/// Share from which it invalidates the conclusion.
 const GRAVE: f64 = 0.05;
 /// A comb with more teeth than this is fine enough for any signal.
 const MOST_LEVELS: usize = 1000;
@@ -20,10 +20,10 @@ const MOST_LEVELS: usize = 1000;
 const FEWEST_LEVELS: usize = 4;
 /// Share of neighbours that are the same.
 const SAME: f64 = 0.5;
-/// How much further the other end may go at the start of a plateau than at its end.
+/// Maximum ratio of the other end's travel at the start of a plateau to that at its end.
 const ANSWERS: f64 = 2.0;
 
-/// The steps of a sensor that has few over the range it was used on.
+/// The steps of a sensor with few steps over its used range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
     /// One step, in the column's unit.
@@ -33,7 +33,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// The steps of a signal; `None` where they are fine, or commanded.
+    /// The steps of a signal; `None` if they are fine, or commanded.
     pub(super) fn of(signal: &[f64], other: &Companion) -> Option<Self> {
         let (step, _) = comb(signal)?;
         let (low, high) = range(signal);
@@ -64,15 +64,14 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
     })
 }
 
-/// Whether the steps of a comb shape its signal: most neighbours are the same, and the other end
-/// does not answer them.
+/// Whether the steps of a comb shape its signal: most neighbouring values are equal, and the other
+/// end does not respond to the steps.
 fn shapes(signal: &[f64], other: &Companion) -> bool {
     let same = signal.windows(2).filter(|pair| pair[0] == pair[1]).count() as f64;
     same >= SAME * signal.len() as f64 && !is_commanded(signal, other)
 }
 
-/// A signal with a line through the edges of its steps; where it turns round the line goes up to
-/// the level.
+/// A signal with a line through the edges of its steps; at a reversal the line reaches the level.
 pub(super) fn through_edges(signal: &[f64]) -> Vec<f64> {
     let Some(last) = signal.len().checked_sub(1) else {
         return Vec::new();
@@ -124,7 +123,7 @@ fn comb(signal: &[f64]) -> Option<(f64, usize)> {
         .then_some((step, levels.len()))
 }
 
-/// Whether the other end answers the steps.
+/// Whether the other end responds to the steps.
 fn is_commanded(signal: &[f64], other: &Companion) -> bool {
     let (mut first, mut last) = (0.0, 0.0);
     let mut start = 0;

@@ -4,13 +4,13 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A stretch is looked at in so many parts; the outer ones are left out, since what was
-/// commanded before it may still settle there.
+/// Number of parts of a stretch; the outer parts are left out, because the response to an earlier
+/// command may still settle there.
 const PARTS: usize = 5;
-/// Multiples of the noise that a movement has to show.
+/// Least movement, in multiples of the noise.
 const CLEAR: f64 = 5.0;
 
-/// Another signal of the record: how far it moves, seen through its noise.
+/// Another signal of the record: the size of its movement, compared with its noise.
 pub(super) struct Companion {
     sums: Vec<f64>,
     noise: f64,
@@ -66,7 +66,7 @@ impl Companion {
         first.min(second) > 0.0 && moved > CLEAR * noise && 0.5 * moved > share * self.usual(length)
     }
 
-    /// How far it goes in the first and in the last third of the stretch.
+    /// Its travel in the first and in the last third of the stretch.
     pub(super) fn ends(&self, stretch: &Range<usize>) -> (f64, f64) {
         let third = stretch.len() / 3;
         let half = third / 2;

@@ -3,15 +3,15 @@
 use super::Found;
 use crate::record::time::median_step;
 
-/// A step longer than the usual one by this share of it is a gap,
+/// A step that exceeds the usual step by this share is a gap,
 const GAP: f64 = 0.5;
 /// where the usual steps (up to this quantile) do not themselves spread
 const USUAL: f64 = 0.95;
 /// so far that a gap has to be told from them by so many times their spread.
 const SPREAD: f64 = 3.0;
-/// More gaps than this share of the steps: time is uneven by nature, and no rows are lost.
+/// With more gaps than this share of the steps, time is uneven by nature, and no rows are lost.
 const UNEVEN: f64 = 0.05;
-/// Share of the time in gaps from which what is between them says too little.
+/// Share of the time in gaps from which the data between them are insufficient.
 const GRAVE: f64 = 0.2;
 
 pub(super) fn find(time: &[f64]) -> Option<Found> {

@@ -11,11 +11,11 @@ use std::ops::Range;
 
 /// Rows to either side over which the stamps are compared with even ones.
 const REACH: usize = 25;
-/// By how much even rows must predict better (ratio of squared errors).
+/// Least advantage of even rows in prediction (ratio of squared errors).
 const BETTER: f64 = 2.0;
-/// Error that the stamps make in a signal, as a share of its spread, from which it is told.
+/// Error of a signal due to the stamps, as a share of its spread, from which it is reported.
 const TOLD: f64 = 0.003;
-/// Share from which it spoils what depends on time.
+/// Share from which it invalidates conclusions that depend on time.
 const GRAVE: f64 = 0.01;
 /// Shifts that are shown, in steps, and how near two of them are one stretch.
 const SHOWN: f64 = 0.1;
@@ -46,7 +46,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
     })
 }
 
-/// By how many steps each stamp is off the even ones around it; `None` near a gap.
+/// Deviation of each stamp from the even ones around it, in steps; `None` near a gap.
 fn shifts(time: &[f64], step: f64) -> Vec<Option<f64>> {
     let at = |i: usize| -> Option<f64> {
         let from = i.checked_sub(REACH)?;
@@ -77,7 +77,7 @@ fn rows_predict(time: &[f64], signal: &[f64], step: f64) -> bool {
     by_stamps > BETTER * by_rows
 }
 
-/// Rms of what the shifts make of the signal, as a share of its spread.
+/// RMS error of the signal due to the shifts, as a share of its spread.
 fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
     let count = signal.len() as f64;
     let mean = signal.iter().sum::<f64>() / count;
@@ -92,7 +92,7 @@ fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
     (sum / known.max(1.0) / spread).sqrt()
 }
 
-/// Where the stamps are off.
+/// The stretches in which the stamps are wrong.
 fn stretches(shifts: &[Option<f64>]) -> Vec<Range<usize>> {
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (i, shift) in shifts.iter().enumerate() {

@@ -1,11 +1,11 @@
 //! Faults of the measurement that are visible before any fit.
 //!
-//! A sensor that stands still while the rest moves, one at the end of its range, samples that
-//! leap away and back, steps so coarse that they shape the signal, gaps in time, time stamps
-//! that jitter: each is named with the lines of the file that it spoils. Stretches that hold no
-//! measurement (stuck, clipped) are left out of the fit, and a straight line stands in for spikes.
-//! A defect is *grave* where that does not save the conclusion. What belongs to any sensor (noise,
-//! a converter's usual steps, a reference that rests) is no defect.
+//! The defects are: a sensor that is constant while the rest moves, a sensor at the end of its
+//! range, samples that jump away and back, steps so coarse that they shape the signal, gaps in
+//! time, and time stamps that jitter. Each is reported with the lines of the file that it affects.
+//! Stretches without a measurement (stuck, clipped) are left out of the fit, and a straight line
+//! replaces spikes. A defect is *grave* if the conclusion is invalid nevertheless. What is normal
+//! for any sensor (noise, a converter's usual steps, a reference at rest) is not a defect.
 
 mod coarse;
 mod companion;
@@ -23,15 +23,15 @@ use spikes::Leaps;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// What is wrong.
+/// The kind of a defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DefectKind {
-    /// A flat top where the other end of the transmission goes on: the sensor's range ends.
+    /// A flat top while the other end of the transmission continues: the end of the sensor's range.
     Clipping,
     /// The steps of the sensor are coarse against its signal.
     Quantisation,
-    /// Time stamps that do not say when the samples were taken.
+    /// Time stamps that do not state when the samples were taken.
     Jitter,
     /// Rows are missing.
     Gap,
@@ -59,7 +59,7 @@ impl DefectKind {
 /// One fault of one column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Defect {
-    /// What is wrong.
+    /// The kind of the defect.
     pub kind: DefectKind,
     /// The column: as in the file for time, input and output, else the channel's name.
     pub channel: String,
@@ -67,7 +67,7 @@ pub struct Defect {
     pub ranges: Vec<[usize; 2]>,
     /// One sentence.
     pub message: String,
-    /// Whether it spoils what is concluded from this column.
+    /// Whether it invalidates conclusions from this column.
     #[serde(skip)]
     pub grave: bool,
     /// Whether the stretches hold no measurement and are left out of the fit.
@@ -81,19 +81,19 @@ pub struct Defect {
 /// Share of the record that a channel's defects may take out of the fit.
 const MOST_OF_A_CHANNEL: f64 = 0.1;
 
-/// Share of blind samples from which a conclusion is spoilt. They are left out; but what was
-/// not seen of the input goes on to act through the hysteresis.
+/// Share of samples without a measurement from which a conclusion is invalid. They are left out,
+/// but unmeasured motion of the input still acts through the hysteresis.
 const GRAVE: f64 = 0.05;
 const GRAVE_INPUT: f64 = 0.01;
 
-/// What the detectors look at.
+/// The data for the detectors.
 pub(super) struct Measured<'a> {
     pub(super) table: &'a Table,
     /// Name of the time's column; `None` where time comes from the row number.
     pub(super) clock: Option<&'a str>,
     /// Input, output, channels.
     pub(super) columns: Vec<&'a Column>,
-    /// Of each channel what it is the sum or difference of; nothing where it is a column.
+    /// For each channel, the columns of which it is the sum or difference; none if it is a column.
     pub(super) parts: Vec<Vec<Vec<f64>>>,
 }
 
@@ -208,7 +208,7 @@ pub(crate) fn bridged<'a, 'b>(
     values
 }
 
-/// A defect before it has a place in the file.
+/// A defect before its lines in the file are known.
 struct Found {
     samples: Vec<Range<usize>>,
     message: String,
@@ -234,8 +234,8 @@ impl Found {
     }
 }
 
-/// A sum or difference rests where what it is made of moves together: it is stuck where one of
-/// its columns is.
+/// A sum or difference is constant if its columns move together; it is stuck only if one of its
+/// columns is stuck.
 fn stuck(
     (column, values): (&Column, &[f64]),
     parts: &[Vec<f64>],
@@ -254,7 +254,7 @@ fn stuck(
     named.filter_map(found).collect()
 }
 
-/// Clipping too mild to be refused.
+/// Clipping that is not severe enough to reject the record.
 fn clipped(
     signal: &[f64],
     other: &[f64],

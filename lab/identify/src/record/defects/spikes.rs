@@ -1,10 +1,9 @@
 //! Single samples that jump away from a signal and back: electromagnetic interference, a dropped
 //! frame, or a marker such as −999 instead of a value.
 //!
-//! A spike leaps further than the signal ever goes in one sample and is back where it came from
-//! a few samples later. A step does not come back, a burst of oscillation leaps several times
-//! in a row, and what both ends of the transmission show is an event, unless both are spoilt in
-//! the same samples.
+//! A spike jumps further than the signal ever moves in one sample, and returns a few samples later.
+//! A step does not return, and a burst of oscillation jumps several times in a row. A jump at both
+//! ends of the transmission is an event, unless both are corrupted in the same samples.
 
 use super::{share, times, Found};
 use std::ops::Range;
@@ -21,12 +20,12 @@ const USUAL: f64 = 0.9;
 const NOTICEABLE: f64 = 0.03;
 /// A spike ends within this share of its height from where it began.
 const BACK: f64 = 0.25;
-/// Samples on either side that have to be calm, and how many other spikes may lie in them.
+/// Samples on either side that must be calm, and the number of other spikes allowed in them.
 const CALM: usize = 10;
 const NEIGHBOURS: usize = 4;
-/// Samples around a spike in which a leap of the other end makes it an event.
+/// Samples around a spike in which a jump of the other end makes the spike an event.
 const EVENT: usize = 2;
-/// Share of samples from which leaping is the signal's nature.
+/// Share of samples above which jumps are normal for the signal.
 const NATURE: f64 = 0.05;
 
 /// A signal and its leaps.
@@ -34,7 +33,7 @@ pub(super) struct Leaps<'a> {
     signal: &'a [f64],
     /// The step from which a leap begins.
     leap: f64,
-    /// What may look like a spike.
+    /// The candidates for a spike.
     candidates: Vec<Range<usize>>,
 }
 
@@ -100,7 +99,7 @@ impl<'a> Leaps<'a> {
         None
     }
 
-    /// Whether nothing else happens around a spike but a few others.
+    /// Whether nothing happens around a spike, except a few other spikes.
     fn is_alone(&self, spike: &Range<usize>) -> bool {
         let (from, to) = (spike.start.saturating_sub(CALM), spike.end + CALM);
         let first = self.candidates.partition_point(|other| other.end < from);
@@ -112,7 +111,7 @@ impl<'a> Leaps<'a> {
             && around.all(|i| of_spike(i) || self.step(i) < 0.5 * self.leap)
     }
 
-    /// Whether this end of the transmission answers what may be a spike of the other one.
+    /// Whether this end of the transmission responds to a candidate spike of the other end.
     fn answers(&self, spike: &Range<usize>) -> bool {
         if self.candidates.contains(spike) {
             return false;
@@ -121,7 +120,7 @@ impl<'a> Leaps<'a> {
         (spike.start.saturating_sub(EVENT).max(1)..=last).any(|i| self.step(i) > self.leap)
     }
 
-    /// The spikes that no other signal answers.
+    /// The spikes to which no other signal responds.
     pub(super) fn spikes(&self, others: &[&Leaps], few: f64) -> Option<Found> {
         let is_spike = |spike: &&Range<usize>| {
             self.is_alone(spike) && !others.iter().any(|other| other.answers(spike))
@@ -149,7 +148,7 @@ impl<'a> Leaps<'a> {
     }
 }
 
-/// A quantile of some values, which are put into another order.
+/// A quantile of some values; reorders them.
 fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     let place = (share * values.len() as f64) as usize;
     let place = place.min(values.len().checked_sub(1)?);

@@ -10,7 +10,7 @@ use super::companion::Companion;
 use super::{share, times, Found};
 use std::ops::Range;
 
-/// Shortest run that is looked at [samples].
+/// Shortest run that is considered [samples].
 const SHORTEST: usize = 20;
 /// Share of their usual speed at which others have to move: where the noise is gone, and
 /// where only a leap tells, since a reference may well rest while its rig settles.
@@ -20,13 +20,13 @@ const MOVING: f64 = 0.3;
 const LEAP: f64 = 3.0;
 /// Steps are usual up to this quantile.
 const USUAL: f64 = 0.995;
-/// Fewest steps from which the usual one is taken.
+/// Minimum number of steps that determine the usual step.
 const FEW_STEPS: usize = 40;
 /// Share of turns among the steps from which a signal carries noise.
 const TURNS: f64 = 0.1;
 /// Chance of a run by noise alone, below which it is none.
 const CHANCE: f64 = 1e-9;
-/// Share of the record above which flat runs are the signal's nature.
+/// Share of the record above which flat runs are normal for the signal.
 const NATURE: f64 = 0.5;
 /// A run to the record's end is so many times longer than any other.
 const DEAD_END: usize = 5;
@@ -76,9 +76,9 @@ fn runs(signal: &[f64]) -> Vec<Range<usize>> {
 struct Judge<'a> {
     signal: &'a [f64],
     others: &'a [&'a Companion],
-    /// Largest usual step; `None` where there are too few to tell.
+    /// Largest usual step; `None` if there are too few steps.
     usual: Option<f64>,
-    /// Longest run that noise could make; `None` where the signal carries none.
+    /// Longest run that noise could cause; `None` if the signal has no noise.
     by_noise: Option<f64>,
     /// Longest run that is not suspect.
     innocent: usize,
