@@ -73,7 +73,7 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
 
 const SHEET: &str = "save the sheet as CSV";
 const HDF5: &str = "save it as CSV, Parquet or .mat v5";
-/// What MATLAB is asked for instead of its other forms.
+/// The command for MATLAB instead of its other forms.
 const V7: &str = "save it in MATLAB with `save -v7`";
 
 /// Where an HDF5 file with a header of MATLAB begins.

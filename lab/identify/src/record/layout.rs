@@ -3,7 +3,7 @@
 //! A file whose first line contains the requested names is read as it is. Otherwise the beginning
 //! of the file is searched for rows of numbers, and the rows above them for those names. Lines
 //! above the names are a preamble; a line between names and numbers is a row of units. Nothing else
-//! is guessed; if the names are nowhere, the first line is refused as a header.
+//! is guessed; if the names are not found, the first line is rejected as a header.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{self, Header};
@@ -12,16 +12,16 @@ use super::roles::{self, Roles};
 use super::text::Rows;
 use super::{clock_time, units, Options};
 
-/// Lines in which the table is looked for.
+/// Maximum number of lines in which the table is searched.
 pub(super) const HEAD: usize = 1000;
-/// No more than so many bytes of them.
+/// Maximum number of bytes of these lines.
 pub(super) const HEAD_BYTES: usize = 1 << 20;
-/// So many rows of numbers in a row, or all that there are, make a table.
+/// This many successive rows of numbers, or all that there are, make a table.
 pub(super) const TABLE: usize = 3;
-/// The names stand at most so many rows above the numbers.
+/// Maximum number of rows between the names and the numbers.
 const ABOVE: usize = 8;
 
-/// A table whose columns have their parts; the rows are those below names and units.
+/// A table whose columns have roles; the rows are those below names and units.
 pub(super) struct Table<'a> {
     /// The line of the names as it is; empty where they are given.
     pub(super) names: &'a str,
@@ -33,10 +33,10 @@ pub(super) struct Table<'a> {
     pub(super) notes: Vec<String>,
 }
 
-/// What gives the columns of a header their parts.
+/// Assigns roles to the columns of a header.
 type Assign = fn(&mut Header, &Options) -> Result<Roles, RecordError>;
 
-/// Finds a table of numbers whatever its columns are called; every column has a part.
+/// Finds a table of numbers, whatever the names of its columns; every column has a role.
 pub(super) fn any<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
     let assign = roles::of_any;
     if !options.names.is_empty() {
@@ -55,7 +55,7 @@ pub(super) fn any<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, Rec
     named(rows, options, assign).and_then(with_units)
 }
 
-/// Finds the table that has the columns which the options ask for.
+/// Finds the table with the columns that the options request.
 pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
     if !options.names.is_empty() {
         return nameless(text, options, roles::assign);
@@ -134,9 +134,9 @@ pub(super) fn is_comment(line: &str) -> bool {
     ["#", "%", "//"].iter().any(|mark| line.starts_with(mark))
 }
 
-/// Takes the units from a row of them, and what is to be said of it; `None` where it is none: a
-/// cell is a number, or no cell under a column that is read is a known unit. A word that is not
-/// known is a unit as it is, but for that of the time.
+/// Takes the units from a row of units, with a note. `None` if it is not a row of units: a cell is
+/// a number, or no cell under a column that is read is a known unit. An unknown word counts as a
+/// unit, except for the time.
 fn units_row(
     table: &mut Table<'_>,
     cells: &[&str],
@@ -214,7 +214,7 @@ fn units_row(
     Ok(Some(said))
 }
 
-/// A line as cells: where it is a number that counts, quotes need no second look.
+/// A line as cells. Only numbers matter here, so quotes need no further check.
 pub(super) fn cells(line: &str, separator: u8) -> Vec<&str> {
     let cells = line.split(char::from(separator)).map(str::trim);
     let open = |cell: &str| -> Option<usize> {
@@ -267,7 +267,7 @@ impl<'a> Head<'a> {
         numbers >= 2 && 2 * numbers >= cells.count()
     }
 
-    /// The first row of a table, of which comments may have parted rows from those that begin there.
+    /// The first row of a table; comments may separate its rows.
     fn behind_comments(&self, mut first: usize, names: usize) -> usize {
         let is_mark = |line: usize| {
             self.lines[line]
@@ -349,8 +349,9 @@ fn nameless<'a>(
     })
 }
 
-/// The first table below the first line whose names are those that are asked for; else why the
-/// names above the first table are not. Where any names will do, those of a row of units do not.
+/// The first table below the first line with the requested names; otherwise the reason why the
+/// names above the first table do not match. Where any names will do, a row of units is not a row
+/// of names.
 fn below<'a>(
     text: &'a str,
     options: &Options,

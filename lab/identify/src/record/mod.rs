@@ -76,7 +76,7 @@ use source::Source;
 use std::borrow::Cow;
 use std::path::Path;
 
-/// What drives the transmission, and what is measured at its end.
+/// The input of the transmission, and the output measured at its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
     /// Proximal torque in, distal torque out: the paper's (5) to (7).
@@ -96,7 +96,7 @@ impl Mode {
     }
 }
 
-/// Fewest samples that a record may have after cutting.
+/// Minimum number of samples of a record after cutting.
 pub const MIN_SAMPLES: usize = 200;
 
 /// How to read a record: the mode, the names of the columns, the cuts.
@@ -113,22 +113,22 @@ pub struct Options {
     pub input: Option<String>,
     /// Column of the output, `tau_o` or `f` where it is `None`.
     pub output: Option<String>,
-    /// Channels beside the default ones, as (name of the channel, column); `A-B` and `A+B` are
-    /// the difference and the sum of two columns.
+    /// Further channels besides the default ones, as (name of the channel, column); `A-B` and `A+B`
+    /// are the difference and the sum of two columns.
     pub channels: Vec<(String, String)>,
     /// Seconds to leave out at the start, counted from the first time stamp.
     pub skip: f64,
-    /// Where to stop \[s\], counted from the first time stamp.
+    /// End \[s\], counted from the first time stamp.
     pub until: Option<f64>,
     /// Sampling rate \[Hz\]; the time column is then not read.
     pub rate: Option<f64>,
     /// Line of the column names, from 1; found where it is `None`.
     pub header_line: Option<usize>,
-    /// Which segment is read of a text in which the names of the columns come again, from 1; all of
-    /// them, as one record, where it is `None`.
+    /// Segment to read, from 1, of a text in which the column names are repeated; if `None`, all of
+    /// them as one record.
     pub segment: Option<usize>,
-    /// Names of the columns of a text that has none, each with its unit where it has one (`x [mm]`);
-    /// an empty name is that of a column which is not read. Empty where the text has its own.
+    /// Column names of a text without names, each with its unit if it has one (`x [mm]`); a column
+    /// with an empty name is not read. Empty if the text has its own names.
     pub names: Vec<String>,
     /// Leave out rows with an empty cell, a NaN or the time stamp of the row before, instead of
     /// refusing the record.
@@ -142,18 +142,18 @@ pub struct Column {
     pub name: String,
     /// The unit in the header, if it states one; `rad` where an angle was converted.
     pub unit: Option<String>,
-    /// One finite value a sample.
+    /// One finite value per sample.
     pub values: Vec<f64>,
-    /// How it is computed from columns, `phi_p + phi_d`, where it is none itself.
+    /// How it is computed from columns, `phi_p + phi_d`, if it is not a column itself.
     pub definition: Option<String>,
 }
 
 /// A checked record: at least [`MIN_SAMPLES`] samples, every value finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Where it came from, as it is named in messages.
+    /// Its source, as named in messages.
     pub path: String,
-    /// What drives the transmission.
+    /// The mode.
     pub mode: Mode,
     /// Time \[s\], strictly increasing, 0 at the first sample that was kept.
     pub time: Vec<f64>,
@@ -161,16 +161,16 @@ pub struct Record {
     pub input: Column,
     /// The transmission's output: torque or force.
     pub output: Column,
-    /// Everything else that was measured and is to be used.
+    /// The other measured channels that are used.
     pub channels: Vec<Column>,
-    /// What the reader did that the user may want to know.
+    /// Notes on what the reader did.
     pub notes: Vec<String>,
-    /// What is wrong with the measurement itself.
+    /// Defects of the measurement.
     pub defects: Vec<Defect>,
-    /// Rows that were left out as asked ([`Options::drop_bad`]).
+    /// Rows that were left out on request ([`Options::drop_bad`]).
     pub dropped: usize,
-    /// Columns that were sampled and held by the log: a curve stands in for their stairs, in
-    /// which nothing is left of their noise.
+    /// Columns that were sampled and held by the log: a curve replaces their stairs and removes
+    /// their noise.
     pub held: Vec<String>,
 }
 
@@ -180,7 +180,7 @@ impl Record {
         self.time.len()
     }
 
-    /// The channel of that name.
+    /// The channel with this name.
     pub fn channel(&self, name: &str) -> Option<&Column> {
         self.channels.iter().find(|column| column.name == name)
     }
@@ -200,7 +200,8 @@ pub fn read(path: &Path, options: &Options) -> Result<Record, RecordError> {
     parse(&load(path)?, &label, options)
 }
 
-/// The bytes of a file, for [`parse`]; not all of one that is recognised as none that is read.
+/// The bytes of a file, for [`parse`]; only the first ones if the form is recognised as
+/// unsupported.
 ///
 /// # Errors
 /// One line that names the file: see [`RecordError`].
@@ -224,7 +225,7 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 /// Reads a record from columns in memory, as from a file that holds columns of numbers;
 /// `label` stands for the file's name.
 ///
-/// A unit may stand in the name of its column, as in the header of a text (`tau_i [N·m]`).
+/// The name of a column may contain its unit, as in the header of a text (`tau_i [N·m]`).
 ///
 /// # Errors
 /// One line that names label, row (from 1) and column: see [`RecordError`].
@@ -388,7 +389,7 @@ fn record(
     })
 }
 
-/// Takes the leaps out of angles that wrap around; returns what is to be said of it.
+/// Removes the jumps from angles that wrap around; returns notes.
 fn unwrapped(input: &mut Column, output: &Column, channels: &mut [Column]) -> Vec<String> {
     let own = wrapping::unwrap(&input.name, &mut input.values, &[&output.values]);
     let others: [&[f64]; 2] = [&input.values, &output.values];
@@ -398,8 +399,7 @@ fn unwrapped(input: &mut Column, output: &Column, channels: &mut [Column]) -> Ve
     own.into_iter().chain(channels).collect()
 }
 
-/// Takes the stairs out of columns that are sampled and held; returns their names and what is to
-/// be said of it.
+/// Removes the stairs from columns that are sampled and held; returns their names and notes.
 fn without_stairs(
     time: &[f64],
     input: &mut Column,

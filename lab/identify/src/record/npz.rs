@@ -254,7 +254,7 @@ impl Kind {
     }
 }
 
-/// The number of so many bytes that begins there, the last one the highest.
+/// The little-endian number with this many bytes at this position.
 fn number<const N: usize>(bytes: &[u8], at: usize) -> Result<usize, Damage> {
     let own = slice(bytes, at, N)?;
     Ok(own

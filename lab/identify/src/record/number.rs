@@ -18,9 +18,9 @@ enum Sign {
 
 /// How a file writes its numbers: with a point or with a comma, never with both.
 ///
-/// The first cell that has either decides. A comma can stand in a number only where it does
-/// not separate cells. A file that mixes both is refused at the first cell of the other kind,
-/// and so is a column whose commas may separate thousands.
+/// The first cell with either sign decides. A comma can be part of a number only if it does not
+/// separate cells. A file that mixes both is rejected at the first cell of the other kind, and so
+/// is a column whose commas may separate thousands.
 pub(super) struct Notation {
     comma_possible: bool,
     sign: Cell<Option<Sign>>,
@@ -39,7 +39,7 @@ impl Notation {
         }
     }
 
-    /// Whether the numbers have turned out to have a decimal comma.
+    /// Whether the numbers are known to have a decimal comma.
     pub(super) fn is_comma(&self) -> bool {
         self.sign.get() == Some(Sign::Comma)
     }
@@ -141,7 +141,7 @@ pub(super) fn is_sheet_error(cell: &str) -> bool {
     })
 }
 
-/// What instruments and spreadsheets write in place of a number, in capitals.
+/// Texts that instruments and spreadsheets write instead of a number, in capitals.
 const MARKS: [&str; 21] = [
     "OVL",
     "OL",
@@ -166,7 +166,7 @@ const MARKS: [&str; 21] = [
     "---",
 ];
 
-/// That a cell is no number, and what is needed where that can be told.
+/// The message that a cell is not a number, and the required form if it can be determined.
 fn no_number(cell: &str) -> String {
     let text = shown(cell, CELL_LENGTH);
     let upper = cell.to_uppercase();
@@ -184,7 +184,7 @@ fn no_number(cell: &str) -> String {
     }
 }
 
-/// Whether a cell is a number whose digits stand in groups of three.
+/// Whether a cell is a number with digits in groups of three.
 fn has_thousands(cell: &str) -> bool {
     let own = cell.strip_prefix(['+', '-']).unwrap_or(cell);
     let Some(separator) = own.chars().find(|c| !c.is_ascii_digit()) else {
@@ -228,7 +228,7 @@ pub(super) fn stored(value: Option<f64>, row: usize, column: &str) -> Result<f64
     }
 }
 
-/// Whether a cell holds a number of either notation, or what stands for none (`NaN`).
+/// Whether a cell contains a number of either notation, or `NaN`.
 pub(super) fn is_data(cell: &str, separator: u8) -> bool {
     cell.parse::<f64>().is_ok() || (separator != b',' && with_comma(cell).is_some())
 }

@@ -1,4 +1,4 @@
-//! What a file holds, before every column has its part: names, units, and values as they are.
+//! The contents of a file before every column has a role: names, units, and values as they are.
 //!
 //! A view shows it to somebody who then chooses the columns. Nothing is refused here that can be
 //! shown: a cell without a number is NaN.
@@ -31,7 +31,7 @@ pub struct Outlined {
     pub unit: Option<String>,
     /// Its part, if its name or an option tells it.
     pub part: Option<Part>,
-    /// One value a row; NaN where the cell is no number.
+    /// One value per row; NaN if the cell is not a number.
     pub values: Vec<f64>,
 }
 
@@ -47,7 +47,7 @@ pub struct Line {
 /// The columns of a file that is in memory, before the columns have their parts.
 ///
 /// # Errors
-/// The refusal of a file in which no table is found; without the name of the file.
+/// The error for a file without a table, without the name of the file.
 pub fn outline(bytes: &[u8], options: &Options) -> Result<Outline, RecordError> {
     match kind::of(bytes)? {
         Kind::Gzip => {

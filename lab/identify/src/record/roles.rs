@@ -30,7 +30,7 @@ pub(super) struct Roles {
 }
 
 impl Roles {
-    /// What is read, in the order input, output, channels.
+    /// The series that are read, in the order input, output, channels.
     pub(super) fn series(&self) -> impl Iterator<Item = Series> + '_ {
         [self.input, self.output]
             .into_iter()
@@ -38,13 +38,13 @@ impl Roles {
             .chain(self.channels.iter().map(|(_, series)| *series))
     }
 
-    /// What the sums and differences are made of, channel by channel.
+    /// The columns of the sums and differences, channel by channel.
     pub(super) fn parts(&self) -> impl Iterator<Item = Series> + '_ {
         let parts = |(_, series): &(String, Series)| series.parts().map(Series::Column);
         self.channels.iter().flat_map(parts)
     }
 
-    /// The columns that are read, but for the time.
+    /// The columns that are read, except for the time.
     pub(super) fn read(&self) -> impl Iterator<Item = usize> + '_ {
         self.series().flat_map(Series::columns)
     }
@@ -64,7 +64,7 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
     }
 }
 
-/// The role of each column. Of two columns of one name neither can be read; what is not read may
+/// The role of each column. Two columns with one name cannot be read; columns that are not read may
 /// have any name.
 pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
     let said = take_units(header, options);
@@ -80,7 +80,7 @@ pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, Re
     Ok(roles)
 }
 
-/// Every column has a part: a table is looked at before anyone has said which columns are meant.
+/// Gives every column a role, to view a table before the columns have been chosen.
 pub(super) fn of_any(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
     let time = time(header, options).ok();
     let mut others = (0..header.columns.len()).filter(|index| Some(*index) != time);
@@ -99,7 +99,7 @@ pub(super) fn of_any(header: &mut Header, options: &Options) -> Result<Roles, Re
     })
 }
 
-/// The columns whose part the options or their names tell, though not all parts are known.
+/// The columns whose role follows from the options or their names, even if not all roles are known.
 pub(super) fn likely(header: &Header, options: &Options) -> Vec<(usize, Part)> {
     let given = |name: &Option<String>| name.as_ref().and_then(|name| header.find(name));
     let usual = |names: [&str; 2]| names.into_iter().find_map(|name| header.find_usual(name));

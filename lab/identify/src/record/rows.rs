@@ -10,20 +10,20 @@ use super::sparse::{self, Lacking};
 use super::time::{Clock, Stamp};
 use super::{Options, MIN_SAMPLES};
 
-/// The numbers that were kept, and where they stood.
+/// The numbers that were kept, and their positions.
 pub(super) struct Table {
     /// Time \[s\] since the first sample that was kept.
     pub(super) time: Vec<f64>,
-    /// One column a role, in the order of [`Roles::series`], then those of [`Roles::parts`].
+    /// One column per role, in the order of [`Roles::series`], then those of [`Roles::parts`].
     pub(super) values: Vec<Vec<f64>>,
     /// Line of each sample.
     pub(super) lines: Vec<usize>,
-    /// Rows that were left out because of what they hold.
+    /// Rows that were left out because of their contents.
     pub(super) dropped: usize,
     pub(super) notes: Vec<String>,
 }
 
-/// Rows that `--drop-bad` has left out, by what was wrong.
+/// Rows that `--drop-bad` has left out, by reason.
 #[derive(Default)]
 struct Dropped {
     empty: usize,
@@ -66,14 +66,14 @@ impl Dropped {
     }
 }
 
-/// What one row holds.
+/// The contents of one row.
 enum Sample {
     At(f64),
     Cut,
     Bad(Bad),
 }
 
-/// What is read of a row: by series, the column, and what is added to it.
+/// The parts of a row that are read: for each series the column, and the column added to it.
 struct Reader<'a> {
     header: &'a Header,
     series: Vec<(usize, Option<(usize, f64)>)>,
@@ -84,7 +84,7 @@ struct Reader<'a> {
     width: usize,
     /// Cells of the first row, where it lacks columns that are not read.
     short: Option<usize>,
-    /// Rows that were kept so far.
+    /// Rows kept so far.
     kept: usize,
     lacking: Lacking,
     /// The refusal of the first stamp before an earlier one, which input and output may have if each
@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// What is to be said of the rows' lines and cells.
+    /// Notes on the lines and cells of the rows.
     fn said(&self) -> impl Iterator<Item = String> {
         let several = match self.carried {
             0 => None,
@@ -215,7 +215,7 @@ impl<'a> Reader<'a> {
         Ok(Sample::At(t))
     }
 
-    /// Whether an error is that of a row which lacks its end: cells, or the end of its last cell.
+    /// Whether an error is due to an incomplete row: missing cells, or an incomplete last cell.
     fn lacks_its_end(&self, error: &RecordError) -> bool {
         let columns = &self.header.columns;
         let last = self.cells.checked_sub(1).and_then(|last| columns.get(last));
@@ -223,7 +223,7 @@ impl<'a> Reader<'a> {
             || last.is_some_and(|last| error.column() == Some(last.name.as_str()))
     }
 
-    /// What is to be said of the lines from an error on, if they are no rows; else the first error.
+    /// A note on the lines from an error on, if they are not rows; otherwise the first error.
     fn below(
         &self,
         error: RecordError,
@@ -247,8 +247,8 @@ impl<'a> Reader<'a> {
         Err(before.filter(|_| !self.drop_bad).unwrap_or(error))
     }
 
-    /// Whether the row has the cells of the header: what is missing has no name, and what is
-    /// more is empty.
+    /// Whether the row has the cells of the header: missing cells have no name, and extra cells are
+    /// empty.
     fn fits(&mut self, row: &Row<'_>) -> Result<(), RecordError> {
         let Row::Text(row) = row else {
             return Ok(());
@@ -275,7 +275,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Reads the rows; values in rows that are cut away are not looked at.
+/// Reads the rows; values in rows that are cut are ignored.
 pub(super) fn read(
     rows: &mut Source<'_>,
     header: &Header,
@@ -368,7 +368,7 @@ fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
     (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))
 }
 
-/// Why so few rows may be left.
+/// A possible reason why so few rows are left.
 fn why_left(dropped: usize, is_apart: bool) -> &'static str {
     match (dropped, is_apart) {
         (0, true) => "at the stamps of the column with the fewest numbers",

@@ -12,7 +12,7 @@ use super::number::is_data;
 use super::text::{Place, Segment};
 use super::Options;
 
-/// The table with the rows of all its segments, or of the one that is asked for.
+/// The table with the rows of all its segments, or of the requested one.
 pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a>, RecordError> {
     let all = segments(&table);
     let count = all.len();
@@ -51,7 +51,7 @@ pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a
     Ok(table)
 }
 
-/// The refusal of a segment that is another record, since its time restarts.
+/// The error for a segment that is another record, because its time restarts.
 pub(super) fn restarts(place: Place, last: f64, stamp: f64) -> RecordError {
     let records = match place.count {
         2 => "two records",
@@ -63,7 +63,7 @@ pub(super) fn restarts(place: Place, last: f64, stamp: f64) -> RecordError {
     ask(place, &why)
 }
 
-/// A refusal that offers a segment.
+/// An error that suggests a segment.
 fn ask(place: Place, why: &str) -> RecordError {
     let Place {
         names,

@@ -71,7 +71,7 @@ impl Series {
         }
     }
 
-    /// By what the second column is to be multiplied, its unit being brought to the first's.
+    /// Factor of the second column that converts its unit to that of the first.
     pub(super) fn second(self, header: &Header) -> Result<Option<(usize, f64)>, RecordError> {
         let Self::Sum {
             first,

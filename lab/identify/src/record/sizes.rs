@@ -273,7 +273,7 @@ pub(super) fn is_known(unit: &str) -> bool {
         .any(|kind| kind.iter().any(|(name, _)| *name == unit))
 }
 
-/// By what a value is to be multiplied to go from one unit to the other.
+/// The factor from one unit to the other.
 pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
     let size = |kind: &[(&str, f64)], unit: &str| {
         let named = kind.iter().find(|(name, _)| *name == unit);

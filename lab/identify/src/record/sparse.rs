@@ -1,17 +1,17 @@
 //! Channels of a slower sensor with numbers in only a few rows (a temperature once per second in a
 //! 500 Hz log), and sensors with separate time stamps in one table.
 //!
-//! A channel with a number in fewer than half of the rows is a line through its readings. What lacks in
-//! one with more is a fault of the record, as it is in the input and the output; unless these have
-//! most of their readings in rows in which the other has none, or one of them has few. Then all
-//! columns are lines.
+//! A channel with a number in fewer than half of the rows is a line through its readings. In other
+//! channels, and in the input and the output, a missing number is a fault of the record. Exception:
+//! if input and output have most of their readings in rows in which the other has none, or if one
+//! of them has few readings, all columns are lines.
 
 use super::error::{Bad, RecordError};
 use super::header::Header;
 use super::roles::Roles;
 use super::Options;
 
-/// Cells of channels without a number, as they are met.
+/// Cells of channels without a number, in the order of reading.
 #[derive(Default)]
 pub(super) struct Lacking {
     /// Row of those that were kept, column of the table, and why.
@@ -22,13 +22,13 @@ pub(super) struct Lacking {
     pub(super) repeats: Vec<usize>,
 }
 
-/// What the rows are without these cells.
+/// The treatment of the rows without these cells.
 pub(super) struct Mended {
     /// Rows that `--drop-bad` leaves out, in ascending order.
     pub(super) out: Vec<(usize, Bad)>,
-    /// Columns of the table that are to be filled.
+    /// Columns of the table to fill.
     pub(super) filled: Vec<usize>,
-    /// Whether input and output have stamps of their own.
+    /// Whether input and output have separate stamps.
     pub(super) is_apart: bool,
 }
 
@@ -40,7 +40,7 @@ impl Lacking {
         }
     }
 
-    /// The columns with a number in fewer than half of so many rows.
+    /// The columns with a number in fewer than half of this number of rows.
     fn sparse(&self, rows: usize) -> Vec<usize> {
         let mut lack = vec![0_usize; self.first.iter().map(|(k, _)| k + 1).max().unwrap_or(0)];
         for (_, column, _) in &self.cells {
@@ -116,7 +116,7 @@ impl Lacking {
     }
 }
 
-/// Draws lines through the readings of sparse columns, NaN elsewhere; returns what is to be said.
+/// Draws lines through the readings of sparse columns, NaN elsewhere; returns notes.
 /// Columns without a reading keep their NaN where nobody asked for them.
 pub(super) fn fill(
     columns: &[usize],
@@ -168,8 +168,8 @@ pub(super) fn is_empty(values: &[f64]) -> bool {
     values.first().is_some_and(|value| value.is_nan())
 }
 
-/// Fills what is NaN by a line between the numbers beside it, at the ends by the nearest one; how
-/// many numbers there were.
+/// Replaces NaN with a line between the neighbouring numbers, at the ends with the nearest number;
+/// returns the number of readings.
 fn line(values: &mut [f64], at: &[f64]) -> usize {
     let readings: Vec<usize> = (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
     let (Some(&first), Some(&last)) = (readings.first(), readings.last()) else {

@@ -5,11 +5,11 @@ use super::number::Notation;
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator};
 use std::io::{Chain, Read, Take};
 
-/// A longer line [bytes] is refused: no record has thousands of columns.
+/// A longer line [bytes] is rejected: no record has thousands of columns.
 const LINE_LIMIT: usize = 1 << 16;
-/// No more than this [bytes] is taken in for one row, even if it never ends.
+/// Maximum size [bytes] that is read for one row, even if it never ends.
 const ROW_LIMIT: usize = 2 * LINE_LIMIT;
-/// What the reader takes in ahead of the row [bytes].
+/// Read-ahead of the reader [bytes].
 const AHEAD: usize = 1 << 13;
 const _: () = assert!(ROW_LIMIT > LINE_LIMIT + 2 * AHEAD);
 

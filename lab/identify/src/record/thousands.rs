@@ -12,7 +12,7 @@ const CELL_LENGTH: usize = 24;
 /// A cell and its line.
 type Place = (usize, String);
 
-/// What the cells of one column say.
+/// The evidence from the cells of one column.
 #[derive(Clone, Default)]
 struct Column {
     /// A cell that grouped digits do not have: the commas are decimal signs.
@@ -23,7 +23,7 @@ struct Column {
     whole: Option<Place>,
 }
 
-/// What the cells of a file say, column by column.
+/// The evidence from the cells of a file, column by column.
 #[derive(Default)]
 pub(super) struct Thousands {
     columns: Vec<Column>,

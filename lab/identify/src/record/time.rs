@@ -25,7 +25,7 @@ pub(super) struct Clock {
     first_repeat: Option<(usize, String)>,
 }
 
-/// What becomes of a row by its time.
+/// The result for a row from its time.
 pub(super) enum Stamp {
     /// Time \[s\] since the first row.
     Kept(f64),
@@ -37,16 +37,16 @@ pub(super) enum Stamp {
     Backwards(f64, RecordError),
 }
 
-/// A median step without a unit from which on milliseconds are suspected \[s\]: two
-/// samples a second or fewer say nothing of hysteresis in motion.
+/// A median step without a unit above which milliseconds are suspected \[s\]: two samples per
+/// second or fewer do not show hysteresis in motion.
 const LONG_STEP: f64 = 0.5;
 
-/// A median step without a unit from which on it is none of seconds, where a smaller unit makes it
-/// one of a logger \[s\]: nobody logs hysteresis twice in three minutes.
+/// A median step without a unit above which it cannot be in seconds, if a smaller unit makes it the
+/// step of a logger \[s\]: nobody logs hysteresis twice in three minutes.
 const NO_STEP: f64 = 100.0;
 
-/// A first stamp without a unit from which on it is none of seconds \[s\], three thousand years: those
-/// since 1970 have ten digits, in milliseconds thirteen.
+/// A first stamp without a unit above which it cannot be in seconds \[s\], three thousand years:
+/// seconds since 1970 have ten digits, milliseconds thirteen.
 const NO_STAMP: f64 = 1e11;
 
 /// A mean step without a unit below which stamps are not taken for seconds \[s\]: spreadsheets
@@ -202,8 +202,8 @@ impl Clock {
         self.last
     }
 
-    /// Refuses time stamps that repeat, unless they may, and says what they look like; and such
-    /// without a unit that cannot be seconds.
+    /// Rejects repeated time stamps, unless they are allowed, and describes them; also rejects
+    /// stamps without a unit that cannot be seconds.
     pub(super) fn finish(&self, header: &Header, may_repeat: bool) -> Result<(), RecordError> {
         if let Source::Column {
             index,
@@ -255,7 +255,7 @@ impl Clock {
         Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
     }
 
-    /// Refuses stamps without a unit that cannot be seconds and may well be milliseconds or less.
+    /// Rejects stamps without a unit that cannot be seconds and may be milliseconds or less.
     pub(super) fn check_unit(&self, header: &Header, kept: &[f64]) -> Result<(), RecordError> {
         let step = median_step(kept);
         let first = self.first.unwrap_or_default();
@@ -331,13 +331,13 @@ const SMALLER: [(&str, f64); 3] = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
 /// A step of a logger \[s\]: ten samples a second or more.
 const QUICK: f64 = 0.1;
 
-/// The unit in which a step of so many would be one of a logger, where there is one.
+/// The unit in which this step would be the step of a logger, if there is one.
 fn likely_unit(step: f64) -> &'static str {
     let is_quick = |(_, seconds): &&(&str, f64)| step * seconds <= QUICK;
     SMALLER.iter().find(is_quick).map_or("ms", |(unit, _)| unit)
 }
 
-/// Whether a step of so many would be one of a logger in a unit below a second.
+/// Whether this step would be the step of a logger in a unit below a second.
 fn is_quick(step: f64) -> bool {
     SMALLER.iter().any(|(_, seconds)| step * seconds <= QUICK)
 }
@@ -362,8 +362,8 @@ fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<
     }
 }
 
-/// The refusal of a cell that is neither a number nor a time, with the forms that are read where it
-/// looks like a time.
+/// The error for a cell that is neither a number nor a time; if it looks like a time, with the
+/// accepted forms.
 fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
     let cell = row.text(index).unwrap_or_default();
     match clock_time::expected(cell) {

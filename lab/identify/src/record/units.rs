@@ -47,7 +47,7 @@ const SUFFIXES: [(&str, &str); 40] = [
     ("uA", "µA"),
 ];
 
-/// Units of no size that is needed here, in brackets or in a row of units.
+/// Units whose size is not needed here, in brackets or in a row of units.
 const PLAIN: [&str; 23] = [
     "°C", "C", "°F", "K", "rad/s²", "1/min", "rpm", "Hz", "kHz", "kg", "g", "%", "1", "-", "–",
     "W", "counts", "count", "pulses", "ticks", "steps", "LSB", "a.u.",
@@ -77,7 +77,7 @@ fn is_ratio(text: &str) -> bool {
     parts.is_some_and(|(above, below)| text != "N/A" && of(above) && of(below))
 }
 
-/// The refusal of a unit that is none of time, on a line of the file.
+/// The error for a unit that is not a unit of time, on a line of the file.
 pub(super) fn not_of_time(line: usize, name: &str, unit: &str) -> RecordError {
     let (own, unit) = (shown(name, NAME_LENGTH), shown(unit, NAME_LENGTH));
     let message = format!(
@@ -86,12 +86,12 @@ pub(super) fn not_of_time(line: usize, name: &str, unit: &str) -> RecordError {
     RecordError::at(line, message).on(name)
 }
 
-/// Whether a cell of a row of units says that there is none.
+/// Whether a cell of a row of units states that there is no unit.
 pub(super) fn is_none(unit: &str) -> bool {
     ["-", "–", "1"].contains(&unit)
 }
 
-/// Whether a cell of a row of units only says that it is one.
+/// Whether a cell of a row of units only marks the row as such.
 pub(super) fn is_label(cell: &str) -> bool {
     let own = cell.trim_end_matches([':', ' ']).to_lowercase();
     ["unit", "units", "einheit", "einheiten", "unité", "unités"].contains(&own.as_str())
@@ -108,7 +108,7 @@ pub(super) fn alone(cell: &str) -> Option<String> {
     is_unit(unit).then(|| written(unit))
 }
 
-/// Names of lengths, of which `_in` is the unit; `torque_in` is an input.
+/// Names of lengths, for which `_in` means inches; `torque_in` is an input.
 const LENGTHS: [&str; 8] = [
     "displacement",
     "position",

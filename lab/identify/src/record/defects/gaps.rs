@@ -7,7 +7,7 @@ use crate::record::time::median_step;
 const GAP: f64 = 0.5;
 /// where the usual steps (up to this quantile) do not themselves spread
 const USUAL: f64 = 0.95;
-/// so far that a gap has to be told from them by so many times their spread.
+/// so far that a gap must exceed them by this many times their spread.
 const SPREAD: f64 = 3.0;
 /// With more gaps than this share of the steps, time is uneven by nature, and no rows are lost.
 const UNEVEN: f64 = 0.05;

@@ -62,7 +62,7 @@ pub(super) fn read(text: &str, names: &[String]) -> Result<Table, RecordError> {
 }
 
 impl Table {
-    /// Name, unit and whole name of each column; a name that two have says nothing.
+    /// Name, unit and whole name of each column; a name that two columns share is ignored.
     pub(super) fn names(&self) -> Vec<(String, Option<String>, String)> {
         let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
         let mut count: HashMap<String, usize> = HashMap::new();
@@ -203,8 +203,8 @@ fn column(path: String, unit: Option<String>, values: Vec<Json>) -> Option<Colum
     (cells.len() > 1).then_some(Column { path, unit, cells })
 }
 
-/// The column that an object is: `values` with their `unit`, or values by their number, as pandas
-/// writes them.
+/// The column that an object represents: `values` with their `unit`, or values by their number, as
+/// pandas writes them.
 fn with_unit(path: &str, mut fields: Vec<(String, Json)>) -> Result<Column, Vec<(String, Json)>> {
     let is_cell = |own: &Json| matches!(own, Json::Cell(_));
     let is_numbered = |(name, own): &(String, Json)| name.parse::<usize>().is_ok() && is_cell(own);

@@ -21,7 +21,7 @@ pub(super) enum Cell {
     Text(Box<str>),
 }
 
-/// The values of a text, one behind the other; the last one may be cut off where there are several.
+/// The values of a text, one after another; if there are several, the last one may be cut off.
 pub(super) fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, RecordError> {
     let mut all = Vec::new();
     for value in serde_json::Deserializer::from_str(text).into_iter::<Json>() {

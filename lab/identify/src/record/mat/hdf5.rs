@@ -17,8 +17,8 @@ use std::collections::HashMap;
 
 /// Most that all arrays of a file are unpacked to \[bytes\].
 const LIMIT: usize = 1 << 31;
-/// Most that a byte of the file is unpacked to \[bytes\]: deflate packs no more into one. A file that
-/// states larger arrays has nothing to fill them with.
+/// Maximum size to which a byte of the file is unpacked \[bytes\]: deflate packs no more into one
+/// byte. A file that states larger arrays cannot contain their data.
 const PACKED: usize = 1032;
 /// Most that one piece of a compressed array is unpacked to \[bytes\].
 const CHUNK: usize = 1 << 28;
@@ -26,10 +26,10 @@ const CHUNK: usize = 1 << 28;
 const DEEPEST: usize = 6;
 /// Variables, fields and cells of a file: no record needs more.
 const MOST: usize = 1 << 16;
-/// What MATLAB keeps for itself: what references refer to, and its objects.
+/// MATLAB's internal groups: the targets of references, and its objects.
 const REFERRED: &str = "#refs#";
 
-/// What a reference refers to.
+/// The targets of references.
 enum Object {
     Group(Group),
     Data(Box<Dataset>),
@@ -93,7 +93,7 @@ impl File {
         Ok(all)
     }
 
-    /// Counts an object; an error where there are too many.
+    /// Counts an object; an error if there are too many.
     fn counted(&mut self) -> Result<(), Error> {
         let left = self.left.checked_sub(1);
         let many = || Error::ResourceLimit(format!("more than {MOST} variables, fields and cells"));
@@ -137,7 +137,7 @@ impl File {
         Ok(Value::Structures(all))
     }
 
-    /// What a list of references refers to.
+    /// The targets of a list of references.
     fn cells(&mut self, list: &Dataset, depth: usize) -> Result<Vec<Value>, Error> {
         self.take(list)?;
         let raw = list.read_raw_bytes()?;
@@ -160,7 +160,7 @@ impl File {
         Ok(all)
     }
 
-    /// Sets the memory aside that a data set takes.
+    /// Reserves the memory for a data set.
     fn take(&mut self, data: &Dataset) -> Result<(), Error> {
         let count = usize::try_from(data.num_elements()?).unwrap_or(usize::MAX);
         let stored = count.saturating_mul(data.raw_element_size()?);

@@ -13,9 +13,9 @@ mod hdf5;
 use super::error::RecordError;
 pub(super) use elements::Value;
 
-/// Vectors deeper than this in structures are not looked for.
+/// Maximum depth in structures at which vectors are searched.
 const DEEPEST: usize = 4;
-/// A matrix with more columns than this is a picture.
+/// A matrix with more columns than this is taken as an image.
 pub(super) const MOST_COLUMNS: usize = 256;
 
 /// A column with all that may name it.
