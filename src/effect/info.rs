@@ -222,7 +222,7 @@ pub trait Regressor<T>: sealed::Sealed {
     const STAGE: Stage = Self::INFO.stage();
 
     /// The regressor, if all its inputs are finite. It may overflow to an infinity, and may be NaN
-    /// in place of zero; the memory must stay finite.
+    /// if this means zero; the memory must stay finite.
     #[doc(hidden)]
     fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T;
 

@@ -13,13 +13,14 @@ use crate::problem::{Piece, Prepared};
 /// Files belong to several configurations if separate gains reduce the error of the baseline model
 /// below this share.
 pub(crate) const OTHER_CONFIGURATION: f64 = 0.5;
-/// The gains of another file describe a file that errs by at most this share of its output's
-/// standard deviation with them ...
+/// The gains of another file describe a file if its error with them is at most this share of its
+/// output's standard deviation ...
 const SAME_ERROR: f64 = 0.1;
-/// ... and with a gain and an offset, one that then errs by at most this share of that error ...
+/// ... and with an additional gain and offset, if its error is then at most this share of that
+/// error ...
 const LINE_LEAVES: f64 = 0.25;
-/// ... and of its standard deviation: what the model does not describe at all has no gain. All
-/// three are a choice.
+/// ... and of its standard deviation: a file that the model does not describe at all has no gain.
+/// All three are choices.
 const LINE_ERROR: f64 = 0.5;
 /// Gains that differ by less than this count as equal. A choice: sensors are calibrated to that.
 const SAME_GAIN: f64 = 0.05;

@@ -433,7 +433,7 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
         .collect();
     let mut columns: Vec<&Stretch> = moving.iter().map(|&j| entries[j].column).collect();
     let partners = Design::new(data, &columns).partners();
-    // A table beside them is no parameter, but they are no better known than beside it.
+    // A table is not a parameter, but it makes the parameters less certain.
     let table = solution.columns.len() - solution.structure.table_gains();
     columns.extend(&solution.columns[table..]);
     let widths = half_widths(data, solution, &columns);

@@ -269,7 +269,7 @@ fn lack(
     }
     // The clocks explain as much.
     is_high &= ledger.lead.is_none();
-    // They stand for all terms of the search, not for the first of them.
+    // They represent all terms of the search, not only the first.
     let is_whole = !ledger.beyond.iter().any(|round| is_own(&round));
     let others = ledger.descriptions.iter();
     let others = others.filter(|own| is_whole && own.mechanism == mechanism);

@@ -17,8 +17,8 @@ const LEAST_EXPLAINED: f64 = 0.5;
 
 /// The share of the output explained by the variables that the model describes.
 ///
-/// Friction of a joint that moves under a nearly constant load is no spring that stands for the
-/// output: what such effects of the channels explain counts.
+/// Friction of a joint that moves under a nearly constant load is not a spring that replaces the
+/// output, so the share explained by such effects of the channels counts.
 fn judged(shares: Explained, declared: &Solution, done: &Solution) -> f64 {
     match declared.structure.reads(Source::Input) && !is_friction_alone(done) {
         true => shares.input,

@@ -40,7 +40,7 @@ impl Table {
     }
 
     /// The curve with these gains and at most `count` of its knots, with one gain: its two ends, and
-    /// then always the knot with which it errs least at all of them, which the motion passes
+    /// then always the knot that gives the smallest error at all knots, which the motion passes
     /// equally often.
     pub(crate) fn with_fewer_knots(&self, gains: &[f64], count: usize) -> Self {
         let points = self.points(gains);

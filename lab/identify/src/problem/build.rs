@@ -183,7 +183,7 @@ fn cutoff(
 }
 
 /// One record on the grids. `shares` are the percentages at which the fit and the
-/// stop-check end; a record without them is held out as a whole.
+/// selection segments end; a record without them is held out as a whole.
 fn place(
     record: &Record,
     uniform: &Uniform,

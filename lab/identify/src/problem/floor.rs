@@ -150,7 +150,7 @@ mod tests {
         let passed = ZeroPhase::new(7.0, 500.0).noise_gain();
         assert!((alone / passed - 1.0).abs() < 0.03, "{alone} {passed}");
         for (size, frequency) in [(0.5, 50.0), (10.0, 50.0), (10.0, 49.983), (100.0, 150.2)] {
-            // With a weak line beside the strong one.
+            // With a weak line in addition to the strong one.
             let at = |i: usize, frequency: f64| (TAU * frequency * i as f64 / 500.0).sin();
             let hum = |i: usize| size * at(i, frequency) + 0.5 * at(i, 87.0);
             let mains: Vec<f64> = plain.iter().enumerate().map(|(i, n)| n + hum(i)).collect();

@@ -144,7 +144,7 @@ pub enum HeldOut {
     /// The last quarter of each.
     #[default]
     Trailing,
-    /// The last record as a whole; of the others the last fifth is the stop-check.
+    /// The last record as a whole; the last fifth of each other record is the selection segment.
     LastRecord,
     /// Nothing: all of each record is one segment, for a model that is only tried on it.
     Nothing,
@@ -281,7 +281,7 @@ impl Prepared {
     pub fn with_stop_fitted(&self) -> Self {
         let mut wide = self.clone();
         wide.split.fit.extend(&self.split.selection);
-        // Of several records each has its own stop-check, between the others' segments.
+        // Each of several records has its own selection segment, between the others' segments.
         wide.split.fit.sort_unstable();
         wide
     }

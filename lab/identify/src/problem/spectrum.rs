@@ -34,7 +34,7 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
     let digits = |raw: f64| format!("{raw:.1e}").parse().unwrap_or(raw);
     let (least, most) = (20.0 / seconds, 0.2 * rate);
     let of_tones = (8.0 * bin as f64 * resolution).clamp(least, most);
-    // Above, the smoother that stands for the signal itself would be cut off by half the rate.
+    // Above this, the smoother that represents the signal itself would be limited by half the rate.
     let last = most.min(0.09 * rate);
     let mut raw = of_tones;
     while let Some(corner) = rounded(input, rate, digits(raw)) {
@@ -60,7 +60,7 @@ enum Corner {
 
 /// The corners of a signal that the smoother for a cut-off rounds.
 fn rounded(signal: &[f64], rate: f64, cutoff: f64) -> Option<Corner> {
-    // Noise is in neither; a smoother that lets twice as much pass stands for the signal itself.
+    // Neither contains noise; a smoother with twice the cut-off represents the signal itself.
     let narrow = ZeroPhase::new(2.5 * cutoff, rate);
     let wide = ZeroPhase::new((5.0 * cutoff).min(0.45 * rate), rate);
     let apart = narrow.apply(signal);

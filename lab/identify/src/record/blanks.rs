@@ -9,7 +9,7 @@ use super::layout::{HEAD, HEAD_BYTES, TABLE};
 use super::number::is_data;
 use std::borrow::Cow;
 
-/// The separator that stands for blanks.
+/// The separator that represents blanks.
 const TAB: u8 = b'\t';
 
 /// The text with a tab instead of the blanks between columns, if blanks separate them; otherwise

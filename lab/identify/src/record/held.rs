@@ -32,7 +32,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
         return None;
     }
     let at: Vec<f64> = edges.iter().map(|&i| values[i]).collect();
-    // The slope at an edge, by the edges beside it.
+    // The slope at an edge, from the neighbouring edges.
     let slope = |k: usize| -> f64 {
         let (before, after) = (k.saturating_sub(1), (k + 1).min(edges.len() - 1));
         let rests = |a: usize, b: usize| (edges[b] - edges[a]) as f64 > RESTED * period;

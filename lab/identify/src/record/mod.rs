@@ -209,7 +209,7 @@ pub fn load(path: &Path) -> Result<Vec<u8>, RecordError> {
     file::load(path, &path.display().to_string())
 }
 
-/// Reads a record from bytes in memory; `label` stands for the file's name.
+/// Reads a record from bytes in memory; `label` is used instead of the file's name.
 ///
 /// # Errors
 /// One line that names file, line and column: see [`RecordError`].
@@ -223,7 +223,7 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 }
 
 /// Reads a record from columns in memory, as from a file that holds columns of numbers;
-/// `label` stands for the file's name.
+/// `label` is used instead of the file's name.
 ///
 /// The name of a column may contain its unit, as in the header of a text (`tau_i [N·m]`).
 ///

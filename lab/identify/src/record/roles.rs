@@ -244,7 +244,7 @@ fn mode(header: &Header, options: &Options) -> Result<Mode, RecordError> {
         let message = format!("{message}; set --mode torque or --mode displacement");
         Err(RecordError::at(header.line, message))
     };
-    // A name as it is first: `X` beside `tau_i` and `tau_o` makes no second mode.
+    // Exact names first: `X` next to `tau_i` and `tau_o` does not make a second mode.
     let exact = ["tau_i", "tau_o", "x", "f"]
         .iter()
         .any(|name| header.columns.iter().any(|column| column.name == *name));

@@ -233,7 +233,7 @@ fn in_other_letters(unit: &str, lower: &str) -> Option<String> {
 /// units that are spelt out or in other letters, `kN/mm` for `KN/millimetre`. What is none of known
 /// size stays as it is.
 pub(super) fn written(unit: &str) -> String {
-    // The letter of the Greek alphabet, in place of the sign.
+    // The Greek letter instead of the sign.
     let unit = unit.replace('μ', "µ");
     if is_known(&unit) {
         return unit;

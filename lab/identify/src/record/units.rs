@@ -3,7 +3,7 @@
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::sizes::{is_known, of_time, written};
 
-/// Endings such as `_mm` in `position_mm`, and the unit that they stand for.
+/// Endings such as `_mm` in `position_mm`, and the units that they mean.
 const SUFFIXES: [(&str, &str); 40] = [
     ("nm", "nm"),
     ("um", "µm"),

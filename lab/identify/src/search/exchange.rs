@@ -113,7 +113,7 @@ impl Search<'_> {
                 (own..terms.len()).filter(|&i| is(&terms[i])).collect()
             };
             let all = [among(WITH_DRAG), among(FRICTION)];
-            // One of three or more may be there beside it.
+            // One of three or more may be there in addition.
             let but_one = all[0].iter().filter(|_| all[0].len() > 2).map(|&kept| {
                 let others = all[0].iter().filter(|&&i| i != kept);
                 others.copied().collect()

@@ -280,7 +280,7 @@ impl Search<'_> {
         let mut found: Vec<(Candidate, f64)> = really.into_iter().flatten().collect();
         found.extend(self.stages_instead(context, index));
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
-        // One function under two names is one effect: neither family is a rival of it.
+        // One function under two names is one effect: neither family is an alternative to it.
         let twin = Candidate::twin(&term);
         let mut rivals: Vec<Candidate> = Vec::new();
         for (rival, _) in found {

@@ -112,7 +112,7 @@ impl Stages {
         if *effect != Effect::Delay {
             return self.alone(effect, output);
         }
-        // A central difference errs by a share of 1e-8, and loses as many digits to rounding.
+        // A central difference has a relative error of 1e-8, and loses as many digits to rounding.
         let h = 1e-4 * gain.abs().max(self.dt);
         let at = |gain: f64| {
             let mut column = output.to_vec();
