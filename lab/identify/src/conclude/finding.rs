@@ -1,5 +1,5 @@
 //! Findings about a record, its model or the rig, besides the missing mechanisms. Each finding has
-//! a code, a severity and its evidence; [`words`](super::words) gives its sentences.
+//! a code, a severity and its evidence; [`Finding::words`] gives its sentences.
 
 use crate::ledger::{ChannelApart, CoarseChannel, FileApart};
 use crate::record::Defect;
