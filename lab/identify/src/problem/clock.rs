@@ -6,25 +6,27 @@
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod source {
     use std::sync::OnceLock;
-    use std::time::Instant;
+    use std::time::{Duration, Instant};
 
     static BEGUN: OnceLock<Instant> = OnceLock::new();
 
-    /// Seconds since the first call.
-    pub(super) fn now() -> f64 {
-        BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64()
+    /// Time since the first call.
+    pub(super) fn now() -> Duration {
+        BEGUN.get_or_init(Instant::now).elapsed()
     }
 }
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 mod source {
     use std::sync::OnceLock;
+    use std::time::Duration;
 
     static CLOCK: OnceLock<fn() -> f64> = OnceLock::new();
 
-    /// Seconds on the host's clock; 0 without one.
-    pub(super) fn now() -> f64 {
-        CLOCK.get().map_or(0.0, |clock| clock())
+    /// Time on the host's clock; zero without one.
+    pub(super) fn now() -> Duration {
+        let seconds = CLOCK.get().map_or(0.0, |clock| clock());
+        Duration::try_from_secs_f64(seconds).unwrap_or_default()
     }
 
     /// Sets the clock \[s\]. Only the first call has an effect.
@@ -36,9 +38,11 @@ mod source {
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use source::set_clock;
 
+use std::time::Duration;
+
 /// A moment on that clock.
 #[derive(Debug, Clone, Copy)]
-pub struct Moment(f64);
+pub struct Moment(Duration);
 
 impl Moment {
     /// The present moment.
@@ -50,7 +54,7 @@ impl Moment {
     /// Time since an earlier moment \[s\].
     #[must_use]
     pub fn since(self, earlier: Self) -> f64 {
-        (self.0 - earlier.0).max(0.0)
+        self.0.saturating_sub(earlier.0).as_secs_f64()
     }
 
     /// Time from this moment until now \[s\].
