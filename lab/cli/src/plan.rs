@@ -28,7 +28,8 @@ const NOTHING_TO_WRITE: u8 = 1;
 impl Plan {
     pub fn run(self) -> Result<ExitCode, Failure> {
         let asked = self.reading.asked()?;
-        let paths = files(&self.records)?.paths;
+        let found = files(&self.records)?;
+        let (excluded, paths) = (found.note(), found.paths);
         if let Some(out) = &self.out {
             let read: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
             outputs::check(&read, &[("--out", out)])?;
@@ -41,6 +42,9 @@ impl Plan {
         let label: Vec<&str> = records.iter().map(|r| r.path.as_str()).collect();
         let report = plan_text(&label.join(" "), &found, Width::of_stderr());
         anstream::eprintln!("{}", report.trim_end());
+        if let Some(note) = excluded {
+            anstream::eprintln!("Note    {note}");
+        }
         let Some(planned) = &found.planned else {
             return Ok(match &self.out {
                 Some(path) => {

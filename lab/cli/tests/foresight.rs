@@ -84,6 +84,19 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
         words.contains("c.csv)") || words.contains("d.csv)"),
         "{words}"
     );
+    // A pattern leaves out what the program wrote beside a model, and says so.
+    let model = folder.path().join("c.toml").display().to_string();
+    assert!(bowden(&["identify", &path, "--model-out", &model])
+        .status
+        .success());
+    let pattern = folder.path().join("c*.csv").display().to_string();
+    let matched = bowden(&["plan", &pattern]);
+    assert_eq!(matched.stdout, csv.as_bytes());
+    let words = String::from_utf8(matched.stderr).unwrap();
+    assert!(
+        words.contains("1 test vector of --model-out excluded"),
+        "{words}"
+    );
     let out = folder.path().join("plan.csv").display().to_string();
     assert!(bowden_on("1", &["plan", &path, "--out", &out])
         .status
