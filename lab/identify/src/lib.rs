@@ -5,7 +5,7 @@
 //! | room | what happens there |
 //! |---|---|
 //! | `algebra` | the linear algebra of all others: spans, systems, directions |
-//! | [`record`] | a file is read and checked, its defects are named |
+//! | [`record`] | a file is read and checked, its defects are named: the crate `bowden-record` |
 //! | [`problem`] | uniform time, one zero-phase smoother for all columns and the output, the split |
 //! | [`model`] | effects that may be missing, terms and their parameters, their columns |
 //! | [`fit`] | variable projection: gains by QR, shapes by Levenberg-Marquardt |
@@ -32,6 +32,7 @@ pub mod foresight;
 pub mod ledger;
 pub mod model;
 pub mod problem;
-pub mod record;
 pub mod score;
 pub mod search;
+
+pub use bowden_record as record;

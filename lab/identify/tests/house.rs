@@ -7,9 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// From the ground up, in the order in which data walk through them.
-const FLOORS: [&str; 13] = [
+const FLOORS: [&str; 12] = [
     "algebra",
-    "record",
     "problem",
     "model",
     "fit",
@@ -24,13 +23,14 @@ const FLOORS: [&str; 13] = [
 ];
 
 /// What each package names of ours in its manifest, tests apart.
-const DEPENDENCIES: [(&str, &[&str]); 6] = [
+const DEPENDENCIES: [(&str, &[&str]); 7] = [
     (
         "cli",
         &["bowden-lab", "bowden-page", "bowden-synth", "bowden-trials"],
     ),
-    ("identify", &["bowden"]),
+    ("identify", &["bowden", "bowden-record"]),
     ("page", &["bowden-lab", "bowden-trials"]),
+    ("record", &[]),
     ("rig", &["bowden"]),
     ("synth", &[]),
     (
@@ -58,10 +58,10 @@ const CONSTANTS: [(&str, usize); 17] = [
     ("identify/foresight", 12),
     ("identify/model", 12),
     ("identify/problem", 29),
-    ("identify/record", 99),
     ("identify/score", 30),
     ("identify/search", 51),
     ("page", 5),
+    ("record", 99),
     ("rig", 6),
     ("synth", 10),
     ("trials", 50),

@@ -2,11 +2,16 @@
 
 use super::error::{RecordError, NAME_LENGTH};
 use super::header::Header;
+use super::kind::Kind;
+#[cfg(feature = "mat")]
+use super::mat;
+#[cfg(feature = "parquet")]
 use super::parquet_file::File;
 use super::roles::{self, Roles};
 use super::source::{Sheet, Source};
 use super::text::Rows;
-use super::{json, mat, npz, Column, Options, Record};
+use super::vectors::{vectors, Vector};
+use super::{json, npz, Column, Options, Record};
 
 /// The columns of a file by name.
 pub(super) struct Columns {
@@ -16,22 +21,37 @@ pub(super) struct Columns {
 
 enum Stored {
     Values(Vec<Vec<f64>>),
+    #[cfg(feature = "parquet")]
     Parquet(File),
 }
 
-pub(super) fn of_mat(bytes: &[u8]) -> Result<Columns, RecordError> {
-    of_vectors(mat::read(bytes)?)
+/// The columns of a file that is neither text nor compressed.
+pub(super) fn of(kind: Kind, bytes: &[u8]) -> Result<Columns, RecordError> {
+    match kind {
+        Kind::Npz => of_vectors(vectors(npz::variables(bytes))?),
+        #[cfg(feature = "mat")]
+        Kind::Mat => of_vectors(mat::read(bytes)?),
+        #[cfg(feature = "mat")]
+        Kind::MatHdf5 => of_vectors(mat::read_hdf5(bytes)?),
+        #[cfg(feature = "parquet")]
+        Kind::Parquet => {
+            let file = File::open(bytes)?;
+            Ok(Columns {
+                header: Header::of(file.names())?,
+                stored: Stored::Parquet(file),
+            })
+        }
+        Kind::Gzip => Err(RecordError::new(
+            "is compressed with gzip twice; unpack it once",
+        )),
+        #[allow(unreachable_patterns)]
+        _ => Err(RecordError::new(
+            "is of a kind that this build of bowden does not read; save it as CSV",
+        )),
+    }
 }
 
-pub(super) fn of_npz(bytes: &[u8]) -> Result<Columns, RecordError> {
-    of_vectors(mat::vectors(npz::variables(bytes))?)
-}
-
-pub(super) fn of_mat_hdf5(bytes: &[u8]) -> Result<Columns, RecordError> {
-    of_vectors(mat::read_hdf5(bytes)?)
-}
-
-fn of_vectors(vectors: Vec<mat::Vector>) -> Result<Columns, RecordError> {
+fn of_vectors(vectors: Vec<Vector>) -> Result<Columns, RecordError> {
     let (names, values): (Vec<_>, Vec<_>) = vectors
         .into_iter()
         .map(|own| ((own.name, own.unit, own.path), own.values))
@@ -61,21 +81,13 @@ pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
     })
 }
 
-pub(super) fn of_parquet(bytes: &[u8]) -> Result<Columns, RecordError> {
-    let file = File::open(bytes)?;
-    Ok(Columns {
-        header: Header::of(file.names())?,
-        stored: Stored::Parquet(file),
-    })
-}
-
 impl Columns {
     /// The header, and the values of all columns; NaN where there is none.
     pub(super) fn all(self) -> (Header, Vec<Vec<f64>>) {
-        let count = self.header.columns.len();
         let values = match self.stored {
             Stored::Values(all) => all,
-            Stored::Parquet(file) => (0..count)
+            #[cfg(feature = "parquet")]
+            Stored::Parquet(file) => (0..self.header.columns.len())
                 .map(|index| {
                     let own = file.read(index).unwrap_or_default();
                     own.into_iter().map(|v| v.unwrap_or(f64::NAN)).collect()
@@ -144,6 +156,7 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
                     let own = std::mem::take(&mut all[index]);
                     own.into_iter().map(Some).collect()
                 }
+                #[cfg(feature = "parquet")]
                 Stored::Parquet(file) => file.read(index)?,
             };
         }

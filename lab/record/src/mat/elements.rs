@@ -4,6 +4,7 @@
 //! bytes and data elements: a type, a length, the bytes. An element may be compressed; a
 //! matrix holds elements itself. Every length is checked against the bytes that there are.
 
+use crate::vectors::Value;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 
@@ -13,25 +14,6 @@ pub(super) const HEADER: usize = 128;
 const LIMIT: u64 = 1 << 31;
 /// Matrices in cells in structures in …: no record needs more.
 const DEEPEST: usize = 6;
-
-/// What a variable holds.
-#[derive(Debug, PartialEq)]
-pub(in crate::record) enum Value {
-    /// Real numbers, column by column.
-    Numbers {
-        dims: Vec<usize>,
-        values: Vec<f64>,
-    },
-    /// The rows of a character array.
-    Text(Vec<String>),
-    Cells(Vec<Value>),
-    /// An array of structures, each with its fields.
-    Structures(Vec<Vec<(String, Value)>>),
-    /// An object of MATLAB's, a table or a time series, of this class.
-    Object(String),
-    /// Complex or sparse numbers, functions.
-    Other,
-}
 
 /// Why the bytes are no MAT-file.
 type Damage = String;

@@ -248,7 +248,8 @@ pub(super) fn require(header: &Header, name: &str, hint: &str) -> Result<usize, 
 }
 
 /// At most three names that are much like one that does not exist, in brackets, for a message.
-pub(crate) fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+#[must_use]
+pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let wanted = name.trim().to_lowercase();
     let alike = |name: &str| strsim::jaro_winkler(&wanted, &name.to_lowercase());
     let named = names.into_iter().filter(|name| !name.is_empty());

@@ -8,7 +8,8 @@
 //! Source: MathWorks, *MAT-File Versions*, "Version 7.3", and the documentation of `hdf5storage`
 //! on MATLAB's attributes. The bytes are read by the crate `hdf5-reader`.
 
-use super::elements::{rows_of, Value};
+use super::elements::rows_of;
+use crate::vectors::Value;
 use hdf5_reader::error::Error;
 use hdf5_reader::group::Group;
 use hdf5_reader::reference::read_object_references;

@@ -89,7 +89,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
 ///
 /// # Errors
 /// One line with file and column if the column has no unit, or a unit of another kind.
-pub(crate) fn to_unit(
+pub fn to_unit(
     column: &mut Column,
     unit: &str,
     whence: &str,

@@ -1,7 +1,7 @@
 //! Missing rows: jumps of the time.
 
 use super::Found;
-use crate::record::time::median_step;
+use crate::time::median_step;
 
 /// A step that exceeds the usual step by this share is a gap,
 const GAP: f64 = 0.5;

@@ -204,7 +204,8 @@ const VELOCITY_NAMES: [&str; 11] = [
 ];
 
 /// Whether a column is a velocity, by its unit, or by its name where it states none.
-pub(crate) fn is_velocity(name: &str, unit: Option<&str>) -> bool {
+#[must_use]
+pub fn is_velocity(name: &str, unit: Option<&str>) -> bool {
     let lower = name.to_lowercase();
     match unit {
         Some(unit) => VELOCITIES.contains(&unit),

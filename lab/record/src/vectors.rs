@@ -1,17 +1,10 @@
-//! MATLAB's `.mat` files of versions 5 and 7.3: variables in, columns out.
+//! Named variables in, columns out.
 //!
 //! A column is a vector; a field of a structure; a column of a matrix, by the name that a
 //! list of names in the same place gives it, or as `data(:,2)`; or the `Data` of a structure
-//! with a `Name`, as trace exports write it. The reader of version 5 is our own: of the crates,
-//! `matfile` and `mat5` read neither structures nor cells, and `matrw` panics on damaged files.
-//! Version 7.3 is HDF5, which the crate `hdf5-reader` reads; which others there are is in
-//! `docs/reference/records.md`.
-
-mod elements;
-mod hdf5;
+//! with a `Name`, as trace exports write it.
 
 use super::error::RecordError;
-pub(super) use elements::Value;
 
 /// Maximum depth in structures at which vectors are searched.
 const DEEPEST: usize = 4;
@@ -28,14 +21,23 @@ pub(super) struct Vector {
     pub(super) values: Vec<f64>,
 }
 
-/// The columns of a file of version 5, each under a name of its own.
-pub(super) fn read(bytes: &[u8]) -> Result<Vec<Vector>, RecordError> {
-    vectors(elements::variables(bytes))
-}
-
-/// The same of a file of version 7.3.
-pub(super) fn read_hdf5(bytes: &[u8]) -> Result<Vec<Vector>, RecordError> {
-    vectors(hdf5::variables(bytes))
+/// What a variable holds.
+#[derive(Debug, PartialEq)]
+pub(super) enum Value {
+    /// Real numbers, column by column.
+    Numbers {
+        dims: Vec<usize>,
+        values: Vec<f64>,
+    },
+    /// The rows of a character array.
+    Text(Vec<String>),
+    Cells(Vec<Value>),
+    /// An array of structures, each with its fields.
+    Structures(Vec<Vec<(String, Value)>>),
+    /// An object of MATLAB's, a table or a time series, of this class.
+    Object(String),
+    /// Complex or sparse numbers, functions.
+    Other,
 }
 
 /// The columns of variables, or why there are none.

@@ -5,7 +5,7 @@
 //! structured array are vectors. Every length is checked against the bytes that there are.
 
 use super::file::LIMIT;
-use super::mat::{Value, MOST_COLUMNS};
+use super::vectors::{Value, MOST_COLUMNS};
 use flate2::read::DeflateDecoder;
 use flate2::Crc;
 use std::io::Read;

@@ -5,8 +5,8 @@
 //! either the stamps or the row numbers predict a sample better from its neighbours.
 
 use super::Found;
-use crate::record::time::median_step;
-use crate::record::Column;
+use crate::time::median_step;
+use crate::Column;
 use std::ops::Range;
 
 /// Rows to either side over which the stamps are compared with even ones.

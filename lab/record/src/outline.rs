@@ -88,18 +88,10 @@ pub fn excerpt(bytes: &[u8], line: usize, around: usize, options: &Options) -> V
 }
 
 fn of_kind(kind: Kind, bytes: &[u8], options: &Options) -> Result<Outline, RecordError> {
-    let columns = match kind {
-        Kind::Text => return of_text(bytes, options),
-        Kind::Mat => sheet::of_mat(bytes)?,
-        Kind::MatHdf5 => sheet::of_mat_hdf5(bytes)?,
-        Kind::Parquet => sheet::of_parquet(bytes)?,
-        Kind::Npz => sheet::of_npz(bytes)?,
-        Kind::Gzip => {
-            return Err(RecordError::new(
-                "is compressed with gzip twice; unpack it once",
-            ))
-        }
-    };
+    if kind == Kind::Text {
+        return of_text(bytes, options);
+    }
+    let columns = sheet::of(kind, bytes)?;
     let (mut header, values) = columns.all();
     let roles = roles::assign(&mut header, options).ok();
     Ok(Outline::new(&header, roles.as_ref(), values, options))

@@ -6,7 +6,7 @@
 //! column.
 //!
 //! ```
-//! use bowden_lab::record::{parse, Options};
+//! use bowden_record::{parse, Options};
 //!
 //! let mut csv = String::from("t [s],tau_i [N·m],tau_o [N·m]\n");
 //! for i in 0..400 {
@@ -19,7 +19,7 @@
 //!
 //! let error = parse(b"t,tau_i\n", "bench.csv", &Options::default()).unwrap_err();
 //! assert!(error.to_string().starts_with("bench.csv:1: column `tau_o`: "));
-//! # Ok::<(), bowden_lab::record::RecordError>(())
+//! # Ok::<(), bowden_record::RecordError>(())
 //! ```
 
 mod agree;
@@ -39,10 +39,12 @@ mod json;
 mod kept;
 mod kind;
 mod layout;
+#[cfg(feature = "mat")]
 mod mat;
 mod npz;
 mod number;
 mod outline;
+#[cfg(feature = "parquet")]
 mod parquet_file;
 mod roles;
 mod rows;
@@ -56,17 +58,16 @@ mod text;
 mod thousands;
 mod time;
 mod units;
+mod vectors;
 mod wrapping;
 
-pub(crate) use agree::to_unit;
-pub use agree::{agree, is_same_unit};
-pub(crate) use defects::bridged;
-pub use defects::{Defect, DefectKind, Steps};
+pub use agree::{agree, is_same_unit, to_unit};
+pub use defects::{bridged, Defect, DefectKind, Steps};
 pub use error::RecordError;
-pub(crate) use header::nearest;
+pub use header::nearest;
 pub use outline::{excerpt, outline, Line, Outline, Outlined};
 pub use roles::Part;
-pub(crate) use units::is_velocity;
+pub use units::is_velocity;
 
 use header::Header;
 use kind::Kind;
@@ -231,7 +232,7 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 /// One line that names label, row (from 1) and column: see [`RecordError`].
 ///
 /// ```
-/// use bowden_lab::record::{of_columns, parse, Column, Options};
+/// use bowden_record::{of_columns, parse, Column, Options};
 ///
 /// let torque = |i: u32| 16.0 * (0.02 * f64::from(i)).sin();
 /// let column = |name: &str, of: &dyn Fn(u32) -> f64| Column {
@@ -257,7 +258,7 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
 /// columns[2].values[6] = f64::NAN;
 /// let error = of_columns(columns, "arrays", &Options::default()).unwrap_err();
 /// assert_eq!((error.file(), error.line(), error.column()), ("arrays", Some(7), Some("tau_o")));
-/// # Ok::<(), bowden_lab::record::RecordError>(())
+/// # Ok::<(), bowden_record::RecordError>(())
 /// ```
 pub fn of_columns(
     columns: Vec<Column>,
@@ -289,13 +290,7 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
 fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     match kind {
         Kind::Text => text_record(bytes, options),
-        Kind::Mat => sheet::record(sheet::of_mat(bytes)?, options),
-        Kind::MatHdf5 => sheet::record(sheet::of_mat_hdf5(bytes)?, options),
-        Kind::Parquet => sheet::record(sheet::of_parquet(bytes)?, options),
-        Kind::Npz => sheet::record(sheet::of_npz(bytes)?, options),
-        Kind::Gzip => Err(RecordError::new(
-            "is compressed with gzip twice; unpack it once",
-        )),
+        _ => sheet::record(sheet::of(kind, bytes)?, options),
     }
 }
 

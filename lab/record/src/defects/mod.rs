@@ -165,7 +165,7 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
 impl Record {
     /// The steps of each column that a coarse sensor measured: its place, 0 for the input and then
     /// the channels, and its steps.
-    pub(crate) fn steps(&self) -> Vec<(usize, Steps)> {
+    pub fn steps(&self) -> Vec<(usize, Steps)> {
         let output = Companion::new(&self.output.values);
         let columns = std::iter::once(&self.input).chain(&self.channels);
         let measured = columns.enumerate().filter(|(_, c)| c.definition.is_none());
@@ -175,7 +175,7 @@ impl Record {
     }
 
     /// The record with a line through the edges of those steps.
-    pub(crate) fn without_steps(&self) -> Self {
+    pub fn without_steps(&self) -> Self {
         let mut finer = self.clone();
         for (place, _) in self.steps() {
             let column = match place.checked_sub(1) {
@@ -189,7 +189,7 @@ impl Record {
 }
 
 /// A signal with a line through some stretches.
-pub(crate) fn bridged<'a, 'b>(
+pub fn bridged<'a, 'b>(
     signal: &'a [f64],
     stretches: impl IntoIterator<Item = &'b Range<usize>>,
 ) -> Cow<'a, [f64]> {

@@ -117,7 +117,7 @@ impl<'a> Judge<'a> {
         };
         let innocent = runs.iter().filter(|run| !is_suspect(run));
         let innocent = innocent.map(ExactSizeIterator::len);
-        let (low, high) = crate::record::clipping::range(signal);
+        let (low, high) = crate::clipping::range(signal);
         Self {
             signal,
             others,
