@@ -145,18 +145,35 @@ fn leaves(prefix: &str, tree: &str, found: &mut Vec<String>) {
     }
 }
 
-/// All paths of a file's `use` lines, from the root of the crate; those of other crates have
-/// no module of ours and drop out later.
+/// The paths in expressions and types that begin at the root of the crate or at a parent.
+fn inline(code: &str, found: &mut Vec<String>) {
+    for root in ["crate::", "super::"] {
+        for (at, _) in code.match_indices(root) {
+            let before = &code[..at];
+            // `super::super::a` begins once, and `pub(in crate::a)` uses nothing.
+            let goes_on = |c: char| c.is_alphanumeric() || matches!(c, ':' | '_' | '$');
+            if !before.ends_with(goes_on) && !before.ends_with("(in ") {
+                let path = code[at..].split(|c: char| !(c.is_alphanumeric() || ":_".contains(c)));
+                let path = path.into_iter().next().unwrap_or_default();
+                found.push(path.trim_end_matches(':').to_owned());
+            }
+        }
+    }
+}
+
+/// All paths of a file, in its `use` lines and elsewhere, from the root of the crate; those of
+/// other crates have no module of ours and drop out later.
 fn used(own: &[String], text: &str) -> Vec<Vec<String>> {
     let mut paths = Vec::new();
     for piece in code(text).split(';') {
-        let Some(start) = piece.rfind("use ") else {
-            continue;
-        };
-        let before = piece[..start].lines().last().unwrap_or_default().trim();
-        if before.is_empty() || before.starts_with("pub") {
+        let start = piece.rfind("use ").filter(|start| {
+            let before = piece[..*start].lines().last().unwrap_or_default().trim();
+            before.is_empty() || before.starts_with("pub")
+        });
+        if let Some(start) = start {
             leaves("", &piece[start + 4..], &mut paths);
         }
+        inline(&piece[..start.unwrap_or(piece.len())], &mut paths);
     }
     let absolute = |path: String| {
         let mut parts = path.split("::").peekable();
@@ -366,12 +383,21 @@ fn numeric_constants_only_become_fewer() {
 }
 
 #[test]
-fn the_graph_is_read_from_nested_and_relative_use_lines() {
+fn the_graph_is_read_from_use_lines_and_from_paths_in_expressions() {
     let own = ["a".to_owned(), "b".to_owned()];
-    let text = "//! use crate::no::line;\nuse super::c::{d, e::{f as g, h}};\npub(crate) use crate::i;\nuse j::k;\n";
+    let text = "//! use crate::no::line;\nuse super::c::{d, e::{f as g, h}};\npub(crate) use crate::i;\nuse j::k;\n\
+                pub(in crate::no) fn l(m: &crate::n::O) { super::super::p::q(m); }\n";
     let found: Vec<String> = used(&own, text).iter().map(|p| p.join("::")).collect();
     assert_eq!(
         found,
-        ["a::c::d", "a::c::e::f", "a::c::e::h", "i", "a::b::j::k"]
+        [
+            "a::c::d",
+            "a::c::e::f",
+            "a::c::e::h",
+            "i",
+            "a::b::j::k",
+            "n::O",
+            "p::q"
+        ]
     );
 }

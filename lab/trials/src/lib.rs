@@ -23,6 +23,7 @@ mod observed;
 pub mod own_rig;
 pub mod proof;
 pub mod setup;
+mod setup_file;
 pub mod table;
 pub mod tolerance;
 pub mod trial;

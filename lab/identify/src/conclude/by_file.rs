@@ -1,5 +1,6 @@
 //! Errors of a joint model by file.
 
+use super::errors::RISES;
 use crate::fit::Solution;
 use crate::problem::{Piece, Prepared};
 use serde::Serialize;
@@ -117,7 +118,7 @@ pub fn worse(data: &Prepared, declared: &Solution, last: &Solution) -> Vec<Worse
         .iter()
         .zip(&after)
         .filter_map(|(b, a)| Some((b, judged(b)?, judged(a)?)))
-        .filter(|(_, before, after)| *after > crate::conclude::verdict::RISES * before)
+        .filter(|(_, before, after)| *after > RISES * before)
         .map(|(file, before, after)| Worse {
             path: file.path.clone(),
             before,

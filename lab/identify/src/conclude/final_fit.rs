@@ -6,7 +6,7 @@
 //! held-out segment stays unseen.
 
 use super::ballast::{has_parts_of_hysteresis, without_hysteresis, Part};
-use super::intervals::term_title;
+use super::term_name::term_title;
 use crate::fit::{refit, Segments, Solution};
 use crate::ledger::{Ledger, Round};
 use crate::model::structure::FitTerm;

@@ -7,16 +7,16 @@
 //! without it a block's residuals are too small, since the block itself was fitted.
 
 use super::excitation;
+pub use super::term_name::{term_name, term_title};
 use super::without::moved_without;
 use crate::algebra::inverse;
 use crate::fit::Solution;
-use crate::model::effects::{entry, shown_by, ToldBy};
+use crate::model::effects::shown_by;
 use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::{Prepared, Stretch};
 use crate::record::Mode;
 use crate::score::blocks::{blocks, BLOCKS};
-use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -72,40 +72,6 @@ struct Entry<'a> {
     /// The reported value is this factor times the fitted one.
     sign: f64,
     term: Option<usize>,
-}
-
-/// The name of a term: that of the effect, with the channel if it reads another than the input.
-#[must_use]
-pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
-    match term.source {
-        Source::Input => term.effect.name().to_owned(),
-        Source::Channel(_) => format!(
-            "{}@{}",
-            term.effect.name(),
-            data.channel(term.source).map_or("?", |c| c.name.as_str())
-        ),
-    }
-}
-
-/// The name of a term for people: with the order of a ripple or the frequency of a tone, which
-/// distinguishes two of them.
-#[must_use]
-pub fn term_title(data: &Prepared, term: &FitTerm) -> String {
-    let name = term_name(data, term);
-    let told_by = entry(term.effect.name()).map_or(ToldBy::Name, |entry| entry.told_by);
-    match (told_by, term.effect.shape(0)) {
-        (ToldBy::Name, _) | (_, None) => name,
-        (ToldBy::Frequency, Some(f)) => format!("{name} ({f:.3} Hz)"),
-        (ToldBy::Order, Some(k)) => {
-            let unit = data.channel(term.source).and_then(|c| c.unit.as_deref());
-            let of_an_angle = |k: f64| format!("{name} (order {k:.2})");
-            match unit {
-                None | Some("rad") => of_an_angle(k),
-                Some("deg" | "°") => of_an_angle(k.to_degrees()),
-                Some(unit) => format!("{name} (period {:.3} {unit})", std::f64::consts::TAU / k),
-            }
-        }
-    }
 }
 
 /// Unit of a term's gain.

@@ -20,6 +20,7 @@ pub mod rivals;
 mod shares;
 pub mod signals;
 pub(crate) mod signs;
+mod term_name;
 pub mod trace;
 pub mod unneeded;
 pub mod verdict;
