@@ -328,8 +328,6 @@ const RENAMED: &[(&str, &str)] = &[
     ("unneeded[].left_out", "redundant[].removed"),
     ("deviation", "output_std"),
     ("sentence", "summary"),
-    ("files_apart", "inconsistent_files"),
-    ("channel_apart", "inconsistent_channel"),
     ("stopped_by_request", "stopped_by_max_terms"),
     ("stopped_by_budget", "stopped_by_time_limit"),
     ("declared.rmse.stop", "baseline.rmse.selection"),
@@ -360,7 +358,6 @@ const RENAMED: &[(&str, &str)] = &[
     ("from", "trained_on"),
     ("from.nrmse.stop", "trained_on.nrmse.selection"),
     ("allowed", "threshold_nrmse"),
-    ("otherwise", "suspected_logging_error"),
     ("record.left_out_s", "record.excluded_s"),
     ("record.deviation", "record.output_std"),
 ];

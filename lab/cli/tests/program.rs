@@ -98,7 +98,6 @@ const LAYOUT: &[(&str, &[&str])] = &[
             "undelivered",
             "output_std",
             "explains",
-            "integrates",
             "verdict",
             "findings",
             "summary",

@@ -1,5 +1,6 @@
 //! The result of a search: every round, every rejection, and the unmodelled curve.
 
+use crate::alteration::Suspicion;
 use crate::fit::{Segments, Solution};
 use crate::model::catalogue::Candidate;
 use crate::model::mechanism::Mechanism;
@@ -147,13 +148,10 @@ pub struct Ledger {
     pub apart: Vec<FileApart>,
     /// Files that are not of one rig, where none of them is only another multiple.
     pub rigs_apart: Option<RigsApart>,
-    /// A channel that was logged otherwise in one of the files.
-    pub channel_apart: Option<ChannelApart>,
+    /// A suspected error in the logging of the records.
+    pub suspicion: Option<Suspicion>,
     /// Lead \[s\] of the output before the input, as a delay fitted to the last model says.
     pub lead: Option<f64>,
-    /// Errors of the delivered model, and of the baseline model with input and output in each other's
-    /// place, as shares of the output's standard deviation on the fit segment.
-    pub exchanged: Option<[f64; 2]>,
     /// Channels whose steps matter to the final model.
     pub coarse: Vec<CoarseChannel>,
     /// The requested number of effects if it ended the search: further effects may be missing.
@@ -180,9 +178,8 @@ impl Ledger {
             integrates: false,
             apart: Vec::new(),
             rigs_apart: None,
-            channel_apart: None,
+            suspicion: None,
             lead: None,
-            exchanged: None,
             coarse: Vec::new(),
             stopped_by_request: None,
             stopped_by_budget: None,
@@ -294,24 +291,6 @@ pub struct RigsApart {
     pub together: f64,
     /// The same of the baseline model with gains of its own for each file.
     pub own: f64,
-}
-
-/// A channel that in one file counts the other way than in the others, or stands in the place of
-/// another one.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct ChannelApart {
-    /// The file.
-    pub path: String,
-    /// The channel.
-    pub channel: String,
-    /// The channel whose place it has; `None` where it counts the other way.
-    pub swapped_with: Option<String>,
-    /// What is missing once that is mended, as it is named there.
-    pub names: Vec<String>,
-    /// The error on the fit segment, as a share of the output's standard deviation there.
-    pub before: f64,
-    /// The same once that is mended.
-    pub after: f64,
 }
 
 /// A channel of a coarse sensor, whose steps account for much of the residual.

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `algebra` | the linear algebra of all others: spans, systems, directions |
 //! | [`record`] | a file is read and checked, its defects are named: the crate `bowden-record` |
+//! | [`alteration`] | how a record may have been logged differently |
 //! | [`problem`] | uniform time, one zero-phase smoother for all columns and the output, the split |
 //! | [`model`] | effects that may be missing, terms and their parameters, their columns |
 //! | [`fit`] | variable projection: gains by QR, shapes by Levenberg-Marquardt |
@@ -23,6 +24,7 @@
 //! code with any of these.
 
 pub(crate) mod algebra;
+pub mod alteration;
 pub mod check;
 pub mod conclude;
 pub mod export;

@@ -116,7 +116,7 @@ fn errors(facts: &CheckFacts) -> Markup {
         (table("Errors on this record", &head, 1..4, &rows))
         @if let Some(allowed) = facts.allowed {
             p class="note" {
-                "The model holds up to an error of " (percent(allowed / facts.deviation)) ": " (facts.rule()) "."
+                "The model holds up to an error of " (percent(allowed / facts.deviation)) ": " (facts.rule) "."
             }
         }
         @for note in &record.notes { p class="note" { (note) } }

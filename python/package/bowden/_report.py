@@ -165,11 +165,7 @@ class Report(_Found):
         noise_floor: float
         output_std: parts.Segments
         explains: parts.Fields
-        integrates: bool
         held_out_floor: float
-        inconsistent_files: list[parts.Fields]
-        inconsistent_channel: Optional[parts.Fields]
-        worse_files: list[parts.Fields]
         stopped_by_max_terms: Optional[int]
         stopped_by_time_limit: Optional[float]
         verdict: str
@@ -241,10 +237,10 @@ class CheckReport(_Found):
         noise_floor: float
         outside: list[parts.Fields]
         depends_on: list[parts.Fields]
-        suspected_logging_error: Optional[parts.Fields]
         defects: list[parts.Defect]
         notes: list[str]
         verdict: str
+        findings: list[parts.Finding]
         summary: str
 
     def __init__(self, checked: _bowden.Checked, command: str) -> None:

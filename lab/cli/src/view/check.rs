@@ -6,7 +6,7 @@ use super::words::in_brackets;
 use anstyle::AnsiColor;
 use bowden_lab::facts::{
     number, share as percent, with_interval, CheckFacts, CheckVerdict as Verdict, Defect, Errors,
-    Fitted, Line, Otherwise, Outside,
+    Fitted, Line, Outside, Told,
 };
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -27,10 +27,10 @@ struct Report<'a> {
     noise_floor: f64,
     outside: &'a [Outside],
     depends_on: Vec<DependsOn<'a>>,
-    suspected_logging_error: Option<&'a Otherwise>,
     defects: &'a [Defect],
     notes: &'a [String],
     verdict: &'static str,
+    findings: &'a [Told],
     summary: &'a str,
 }
 
@@ -111,10 +111,10 @@ pub fn check_json(
         noise_floor: record.noise_floor,
         outside: &check.outside,
         depends_on: depends_on.collect(),
-        suspected_logging_error: check.otherwise.as_ref(),
         defects: &record.defects,
         notes: &record.notes,
         verdict: check.verdict.name(),
+        findings: &check.findings,
         summary: &check.sentence,
     })
 }
@@ -144,7 +144,12 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     };
     let subject = format!("{model} on {path}");
     let command = ("bowden validate", subject.as_str());
-    heading(&mut out, width, command, (colour, headline));
+    let mut asked = check
+        .findings
+        .iter()
+        .filter_map(|told| told.finding.headline());
+    let headline = asked.next().unwrap_or_else(|| headline.to_owned());
+    heading(&mut out, width, command, (colour, &headline));
     prose(&mut out, width, &check.sentence);
     out.push('\n');
     let start = match check.left_out > 0.0 {
@@ -174,7 +179,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
         format!(
             "the model holds up to an error of {}: {}",
             percent(allowed / check.deviation),
-            check.rule()
+            check.rule
         )
     });
     block(&mut out, width, "Bound", bound);

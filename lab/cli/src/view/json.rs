@@ -3,9 +3,9 @@
 use super::curve::UnknownPart;
 use super::hand_over::HandOverPart;
 use bowden_lab::facts::{
-    ChannelApart, Complete, CostFacts, Defect, Experiment, Explained, Facts, FileAlone, FileApart,
-    FileErrors, FileShare, FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter,
-    RejectedFacts, RivalFacts, RoundFacts, RoundModel, Segments, Told, Unneeded, Worse,
+    Complete, CostFacts, Defect, Experiment, Explained, Facts, FileAlone, FileErrors, FileShare,
+    FinalFacts, Gate, Grade, HeldOutOf, Lack, ModelFacts, Parameter, RejectedFacts, RivalFacts,
+    RoundFacts, RoundModel, Segments, Told, Unneeded,
 };
 use serde::Serialize;
 
@@ -41,13 +41,6 @@ struct Report<'a> {
     output_std: Segments,
     /// Shares of the held-out output's variance.
     explains: Explained,
-    integrates: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    inconsistent_files: Option<&'a [FileApart]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    inconsistent_channel: Option<Option<&'a ChannelApart>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    worse_files: Option<&'a [Worse]>,
     /// The requested number of effects, if it ended the search.
     stopped_by_max_terms: Option<usize>,
     /// The requested time [s], if it ended the search.
@@ -303,10 +296,6 @@ pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_jso
         held_out_floor: several.then_some(facts.record.held_out_floor),
         output_std: facts.deviation,
         explains: facts.explains,
-        integrates: facts.integrates,
-        inconsistent_files: several.then_some(&facts.apart[..]),
-        inconsistent_channel: several.then_some(facts.channel_apart.as_ref()),
-        worse_files: several.then_some(&facts.worse[..]),
         stopped_by_max_terms: facts.stopped_by_request,
         stopped_by_time_limit: facts.stopped_by_budget,
         verdict: facts.verdict.name(),

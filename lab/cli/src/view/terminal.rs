@@ -67,7 +67,7 @@ pub fn text(facts: &Facts, report: Report) -> String {
     }
     out += &model(facts, report);
     // The headline says not to use it.
-    if is_usable(facts.verdict) {
+    if facts.is_usable() {
         out += &hand_over::text(&facts.hand_over, report.width);
     }
     out += &next(facts, report);
@@ -80,6 +80,11 @@ fn answer(facts: &Facts, width: Width) -> String {
     let command = ("bowden identify", facts.label.as_str());
     let colour = colour(facts);
     heading(&mut out, width, command, (colour, &headline(facts)));
+    let errors: Vec<&str> = facts.errors().map(|told| told.words.as_str()).collect();
+    let errors = errors.join(" ");
+    if !errors.is_empty() {
+        prose(&mut out, width, &errors);
+    }
     for lack in facts.lacks.iter().skip(1) {
         prose(&mut out, width, &format!("also {}", share(facts, lack)));
     }
@@ -107,15 +112,21 @@ fn answer(facts: &Facts, width: Width) -> String {
         let words = format!("{}: also described by {}", lack.title, sets.join(" or "));
         prose(&mut out, width, &words);
     }
-    prose(&mut out, width, unsaid(facts));
+    prose(&mut out, width, &unsaid(facts, &errors));
     line!(out);
     out
 }
 
-/// The summary without the mechanisms, which the headline names.
-fn unsaid(facts: &Facts) -> &str {
-    let rest = facts.sentence.strip_prefix(&lacking(&facts.lacks));
-    rest.map_or(&facts.sentence, str::trim_start)
+/// The summary without the errors, which come first, and without the mechanisms, which the headline
+/// names unless there are errors.
+fn unsaid(facts: &Facts, errors: &str) -> String {
+    let rest = facts.sentence.replacen(errors, "", 1);
+    let rest = rest.trim_start();
+    let rest = match errors.is_empty() {
+        true => rest.strip_prefix(&lacking(&facts.lacks)).unwrap_or(rest),
+        false => rest,
+    };
+    rest.trim_start().to_owned()
 }
 
 /// "friction over the velocity of x (94 % of the missing output)". What the terms of a complete
@@ -134,6 +145,9 @@ fn share(facts: &Facts, lack: &Lack) -> String {
 fn headline(facts: &Facts) -> String {
     let main = facts.lacks.first();
     let main = main.map_or_else(String::new, |lack| share(facts, lack));
+    if let Some(asked) = facts.errors().find_map(|told| told.finding.headline()) {
+        return asked;
+    }
     match (facts.verdict, facts.rounds.len()) {
         (Verdict::NoInputDependence, _) => {
             "DO NOT USE THIS MODEL: the output does not follow the input".to_owned()
@@ -146,7 +160,7 @@ fn headline(facts: &Facts) -> String {
             "UNDER-EXCITED RECORD: too little motion for an answer".to_owned()
         }
         (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: {main} may be missing"),
-        (Verdict::UnmodelledDependence, _) => {
+        (Verdict::UnmodelledDependence, _) if facts.lacks.is_empty() => {
             let words = facts
                 .unknown
                 .as_ref()
@@ -418,14 +432,6 @@ fn model(facts: &Facts, report: Report) -> String {
     out
 }
 
-/// Whether the verdict leaves a model that can be used.
-fn is_usable(verdict: Verdict) -> bool {
-    !matches!(
-        verdict,
-        Verdict::NoInputDependence | Verdict::NotTransferable | Verdict::DefectiveRecord
-    )
-}
-
 /// What to type next.
 fn next(facts: &Facts, report: Report) -> String {
     let unidentified = facts
@@ -441,7 +447,7 @@ fn next(facts: &Facts, report: Report) -> String {
     };
     let verbose = if report.verbose { "" } else { "-v · " };
     let mut out = String::new();
-    let model = match is_usable(facts.verdict) {
+    let model = match facts.is_usable() {
         true => "--model-out model.toml · ",
         false => "",
     };
@@ -453,8 +459,10 @@ fn next(facts: &Facts, report: Report) -> String {
 fn colour(facts: &Facts) -> AnsiColor {
     match facts.verdict {
         // What explains the record is not what is exported.
-        Verdict::Explained if facts.constrained().is_none() => AnsiColor::Green,
-        verdict if is_usable(verdict) => AnsiColor::Yellow,
+        Verdict::Explained if facts.constrained().is_none() && facts.is_usable() => {
+            AnsiColor::Green
+        }
+        _ if facts.is_usable() => AnsiColor::Yellow,
         _ => AnsiColor::Red,
     }
 }

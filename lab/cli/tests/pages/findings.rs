@@ -1,6 +1,8 @@
 //! The page of the findings: each code with its severity and its words for one example.
 
-use bowden_lab::facts::{ChannelApart, Defect, Explained, FileApart, Finding, Outside, Told};
+use bowden_lab::facts::{
+    Alteration, Defect, Explained, FileApart, Finding, Fitted, Outside, Suspicion, Told,
+};
 use bowden_lab::ledger::CoarseChannel;
 use bowden_lab::record::DefectKind;
 use std::collections::BTreeSet;
@@ -43,11 +45,12 @@ fn of_no_model() -> Vec<Finding> {
             of: 2,
             unit: Some(text("N")),
         },
-        Finding::ChannelDiffers(ChannelApart {
-            path: text("b.csv"),
-            channel: text("phi_p"),
-            swapped_with: None,
-            names: names(&["viscous(phi_p)"]),
+        Finding::LoggedDifferently(Suspicion {
+            alteration: Alteration::Reversed {
+                column: text("phi_p"),
+            },
+            path: Some(text("b.csv")),
+            terms: names(&["viscous(phi_p)"]),
             before: 0.1,
             after: 0.008,
         }),
@@ -105,17 +108,20 @@ fn of_no_transfer() -> Vec<Finding> {
     ]
 }
 
-/// Of the measurement.
-fn of_record() -> Vec<Finding> {
-    let (input, output) = (text("x"), text("F"));
-    let outside = Outside {
+fn outside() -> Outside {
+    Outside {
         channel: text("x"),
         quantity: "position",
         unit: Some(text("mm")),
         seen: [-100.0, 100.0],
         here: [-130.0, 130.0],
         share: 0.2,
-    };
+    }
+}
+
+/// Of the measurement.
+fn of_record() -> Vec<Finding> {
+    let input = text("x");
     let defect = Defect {
         kind: DefectKind::Clipping,
         channel: text("F"),
@@ -133,13 +139,7 @@ fn of_record() -> Vec<Finding> {
             input: input.clone(),
         },
         Finding::InputIsVelocity { input: text("v") },
-        Finding::InputOutputSwapped {
-            input: input.clone(),
-            output: output.clone(),
-            before: 0.4,
-            after: 0.05,
-        },
-        Finding::Extrapolation(outside),
+        Finding::Extrapolation(outside()),
         Finding::MotionUnseen {
             input: input.clone(),
         },
@@ -153,10 +153,7 @@ fn of_record() -> Vec<Finding> {
             },
             unit: Some(text("mm")),
         },
-        Finding::OutputLeads {
-            seconds: 0.004,
-            may_be_effect: false,
-        },
+        Finding::OutputLeads { seconds: 0.004 },
         Finding::SegmentsDiffer {
             fit: 9.0,
             held_out: 3.0,
@@ -241,13 +238,67 @@ fn of_model() -> Vec<Finding> {
     ]
 }
 
+/// Of a validation.
+fn of_validation() -> Vec<Finding> {
+    let unit = || Some(text("N"));
+    let gain = Fitted {
+        value: 1.3,
+        ci95: Some([1.29, 1.31]),
+    };
+    vec![
+        Finding::ErrorAsExpected {
+            error: 0.012,
+            own: 0.01,
+        },
+        Finding::ErrorAsExpectedInUnit {
+            rmse: [0.21, 0.2],
+            unit: unit(),
+            error: 0.15,
+            holds: true,
+        },
+        Finding::ErrorIsNoise { error: 0.03 },
+        Finding::ErrorTooLarge {
+            error: 0.3,
+            own: Some(0.01),
+            with_line: 0.25,
+        },
+        Finding::ErrorAtLimit {
+            error: 0.11,
+            limit: 0.1,
+        },
+        Finding::ErrorWithoutLimit { error: 0.3 },
+        Finding::OutputAtNoise,
+        Finding::LineChanged {
+            gain: Some(gain),
+            offset: 0.2,
+            unit: unit(),
+            error: 0.015,
+            limit: 0.02,
+        },
+        Finding::OutputUnitDiffers { output: text("F") },
+        Finding::ModelInexact { own: 0.06 },
+        Finding::ModelNotTransferable,
+        Finding::ResidualDependsOn {
+            variable: Some(text("the velocity of x")),
+            is_tested: true,
+        },
+        Finding::RangesExceeded {
+            ranges: vec![outside()],
+        },
+        Finding::InputContributesLittle {
+            input: text("x"),
+            share: 0.04,
+        },
+    ]
+}
+
 /// The page.
 pub fn page() -> String {
     let mut page = String::from(
         "# Findings\n\n\
-         The list `findings` of `bowden identify --json`: what must be known about a record, its model or the \
-         rig besides the missing mechanisms. Each row shows an example, whose numbers and names come from \
-         its `evidence`.\n\n\
+         The list `findings` of `bowden identify --json` and `bowden validate --json`: what must be known about a \
+         record, its model or the rig besides the missing mechanisms. Each row shows an example, whose numbers \
+         and names come from its `evidence`.\n\n\
          | code | severity | words |\n|---|---|---|\n",
     );
     let mut codes = BTreeSet::new();
@@ -257,6 +308,7 @@ pub fn page() -> String {
         of_record(),
         of_residual(),
         of_model(),
+        of_validation(),
     ];
     for finding in parts.into_iter().flatten() {
         let told = serde_json::to_value(Told::from(finding)).unwrap();

@@ -34,7 +34,9 @@ fn two_files(changed: impl Fn(f64) -> f64) -> (Closed, TempDir) {
 
 /// Gain and offset of the only file that is apart, which is the second one.
 fn line(closed: &Closed) -> (f64, f64) {
-    let all = closed.json["inconsistent_files"].as_array().unwrap();
+    let all = closed.finding("files-scaled").unwrap()["files"]
+        .as_array()
+        .unwrap();
     assert_eq!(all.len(), 1, "{all:?}");
     assert!(all[0]["path"].as_str().unwrap().ends_with("evening.csv"));
     assert!(all[0]["than"].as_str().unwrap().ends_with("morning.csv"));
@@ -51,7 +53,6 @@ fn another_sign_in_one_file_is_told_and_nothing_is_called_a_model() {
     assert_eq!(closed.verdict(), "no-input-dependence");
     let (gain, _) = line(&closed);
     assert!((gain + 1.0).abs() < 0.02, "{gain}");
-    closed.says(&["evening.csv", "the opposite sign", "--per-file gains"]);
 }
 
 #[test]
@@ -62,19 +63,16 @@ fn another_unit_in_one_file_is_told_with_its_factor() {
     // The baseline model errs by the noise alone, 0.4 % of the output.
     assert!((gain / 4.448 - 1.0).abs() < 0.02, "{gain}");
     assert!((offset - 3.0).abs() < 0.3, "{offset}");
-    closed.says(&["evening.csv", "unit or calibration"]);
 }
 
 #[test]
 fn another_zero_in_one_file_is_a_pretension_that_steps_there() {
     let (closed, _folder) = two_files(|force| force + 5.0);
-    assert!(closed.json["inconsistent_files"]
-        .as_array()
-        .unwrap()
-        .is_empty());
+    assert_eq!(closed.finding("files-scaled"), None);
     assert_eq!(closed.names().first(), Some(&"pretension"));
-    closed.says(&["The preload steps at the start of", "evening.csv", "zero"]);
-    assert!(!closed.sentence().contains("one rig"));
+    let path = &closed.finding("zero-differs").unwrap()["path"];
+    assert!(path.as_str().unwrap().ends_with("evening.csv"));
+    assert_eq!(closed.finding("files-of-several-rigs"), None);
 }
 
 /// A cable that is always pulled, with a viscous friction of its proximal pulley; the output times a
@@ -114,10 +112,8 @@ fn a_unit_of_a_thousandth_is_told_where_an_effect_is_missing_too() {
     ];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
     assert_eq!(closed.verdict(), "no-input-dependence");
-    closed.says(&["a different unit or calibration", "--per-file gains"]);
-    let gain = closed.json["inconsistent_files"][0]["gain"]
-        .as_f64()
-        .unwrap();
+    let file = &closed.finding("files-scaled").unwrap()["files"][0];
+    let gain = file["gain"].as_f64().unwrap();
     // In either direction, and as exactly as the missing effect lets the gains be known.
     assert!((gain.ln().abs() - 1e3_f64.ln()).abs() < 0.1, "{gain}");
 }
@@ -133,10 +129,11 @@ fn of_several_files_the_one_that_differs_from_most_is_named() {
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
     let closed = Closed::of(&paths);
     assert_eq!(closed.verdict(), "no-input-dependence");
-    let all = closed.json["inconsistent_files"].as_array().unwrap();
+    let all = closed.finding("files-scaled").unwrap()["files"]
+        .as_array()
+        .unwrap();
     assert_eq!(all.len(), 1, "{all:?}");
     assert!(all[0]["path"].as_str().unwrap().ends_with("one.csv"));
-    closed.says(&["one.csv", "the opposite sign there?"]);
 }
 
 /// Noise has no gain.
@@ -150,11 +147,7 @@ fn a_sensor_that_is_dead_in_one_file_is_not_called_another_unit() {
         },
     );
     let closed = Closed::of(&[&paths[0], &paths[1]]);
-    assert!(closed.json["inconsistent_files"]
-        .as_array()
-        .unwrap()
-        .is_empty());
-    assert!(!closed.sentence().contains("another unit"));
+    assert_eq!(closed.finding("files-scaled"), None);
 }
 
 /// What the search has not tried may describe all files.
@@ -168,23 +161,15 @@ fn a_search_that_was_not_made_says_nothing_of_files_that_are_apart() {
         },
     );
     let closed = Closed::of(&[&paths[0], &paths[1], "--max-terms", "0"]);
-    assert!(closed.json["inconsistent_files"]
-        .as_array()
-        .unwrap()
-        .is_empty());
-    assert!(!closed.sentence().contains("No single model"));
+    assert_eq!(closed.finding("files-scaled"), None);
 }
 
 #[test]
 fn files_of_one_rig_are_not_apart() {
     let (closed, _folder) = two_files(|force| force);
-    assert!(closed.json["inconsistent_files"]
-        .as_array()
-        .unwrap()
-        .is_empty());
-    assert!(!closed.sentence().contains("No single model"));
-    assert!(!closed.sentence().contains("pretension"));
-    assert!(!closed.sentence().contains("one rig"));
+    assert_eq!(closed.finding("files-scaled"), None);
+    assert!(closed.names().is_empty());
+    assert_eq!(closed.finding("files-of-several-rigs"), None);
 }
 
 /// Seen alone, a spring that hardens has another gain where it is moved further.
@@ -199,12 +184,9 @@ fn files_of_two_strokes_on_a_spring_that_hardens_are_not_apart() {
     };
     let paths = [hardens(small, "small.csv"), hardens(large, "large.csv")];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
-    assert!(closed.json["inconsistent_files"]
-        .as_array()
-        .unwrap()
-        .is_empty());
+    assert_eq!(closed.finding("files-scaled"), None);
     assert_eq!(closed.names().first(), Some(&"stiffness-cubic"));
-    assert!(!closed.sentence().contains("one rig"));
+    assert_eq!(closed.finding("files-of-several-rigs"), None);
 }
 
 /// The same spring with a third of the friction, and another zero: no gain makes one of the other.
@@ -225,12 +207,9 @@ fn files_of_two_rigs_are_said_to_be_that_and_no_zero_is_blamed() {
         second.write(&folder, "other.csv"),
     ];
     let closed = Closed::of(&[&paths[0], &paths[1]]);
-    closed.says(&[
-        "These files do not seem to come from one rig",
-        "`--per-file gains`",
-    ]);
-    assert!(!closed.sentence().contains("zero of a sensor"));
+    assert!(closed.finding("files-of-several-rigs").is_some());
+    assert_eq!(closed.finding("zero-differs"), None);
     let apart = Closed::of(&[&paths[0], &paths[1], "--per-file", "gains"]);
     assert_eq!(apart.verdict(), "explained");
-    assert!(!apart.sentence().contains("one rig"));
+    assert_eq!(apart.finding("files-of-several-rigs"), None);
 }

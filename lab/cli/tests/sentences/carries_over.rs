@@ -171,12 +171,10 @@ fn with_gains_of_its_own_a_file_that_gets_worse_is_named() {
         bent.write(&folder, "90.csv"),
     );
     let closed = Closed::of(&[&a, &b, "--per-file", "gains"]);
-    let worse = closed.json["worse_files"].as_array().unwrap();
-    assert_eq!(worse.len(), 1, "{worse:?}");
-    assert!(worse[0]["path"].as_str().unwrap().ends_with("90.csv"));
+    let worse = closed.finding("file-worse").unwrap();
+    assert!(worse["path"].as_str().unwrap().ends_with("90.csv"));
     let text = closed.text();
     assert!(text.contains(&format!("worse for {b}")), "{text}");
-    closed.says(&["90.csv"]);
 }
 
 /// The input's own column stays what it is: nothing here depends on it.

@@ -111,6 +111,11 @@ impl Closed {
         self.json["summary"].as_str().unwrap()
     }
 
+    /// The evidence of the finding with this code.
+    pub fn finding(&self, code: &str) -> Option<&Value> {
+        evidence(&self.json, code)
+    }
+
     /// A share of the held-out output's variance.
     pub fn explains(&self, what: &str) -> f64 {
         self.json["explains"][what].as_f64().unwrap()
@@ -131,6 +136,14 @@ impl Closed {
             assert!(told.contains(text), "{text:?} is not in: {told}");
         }
     }
+}
+
+/// The evidence of the finding with this code in an answer.
+pub fn evidence<'a>(json: &'a Value, code: &str) -> Option<&'a Value> {
+    let mut all = json["findings"].as_array().unwrap().iter();
+    let found = all.find(|finding| finding["code"] == code)?;
+    // A finding without evidence has none.
+    Some(found.get("evidence").unwrap_or(&Value::Null))
 }
 
 /// Pseudo-random, uniform in −1…1: the fraction of a large sine (an old trick of shaders).

@@ -60,7 +60,7 @@ fn the_json_of_a_check_is_laid_out_as_documented_and_the_same_each_time() {
             "noise_floor",
             "outside",
             "depends_on",
-            "suspected_logging_error",
+            "findings",
             "defects",
             "notes",
             "verdict",

@@ -20,11 +20,14 @@
 //!   record that moves less makes the same error a larger share;
 //! * [`NOISE`] times the noise floor of this record: what is noise is no fault of the model.
 
+mod findings;
 mod given;
-mod line;
-mod otherwise;
+mod logged;
 mod play;
 
+use crate::alteration::Suspicion;
+use crate::conclude::line::Line;
+use crate::conclude::numbers::share as percent;
 use crate::conclude::trace::{csv, input, parts, Column};
 use crate::export::invertible::three_digits;
 use crate::fit::Solution;
@@ -33,9 +36,8 @@ use crate::record::{to_unit, Defect, Record};
 use crate::score::dependences::{dependences, Dependence};
 pub use crate::score::ranges::Outside;
 use crate::score::ranges::{beyond, ACCELERATION, POSITION, VELOCITY};
+pub(crate) use findings::summary;
 pub use given::{one_line, About, Errors, Given, Seen};
-pub use line::{Fitted, Line};
-pub use otherwise::{Otherwise, Way};
 use play::{Before, Played};
 
 /// A model holds up to this many times the held-out error that it came with. That error is
@@ -120,14 +122,15 @@ pub struct Check {
     pub outside: Vec<Outside>,
     /// On what the residual behind gain and offset depends, where the model does not hold.
     pub depends_on: Vec<Dependence>,
-    /// How the record may have been logged otherwise, where the model does not hold and would
-    /// with that.
-    pub otherwise: Option<Otherwise>,
+    /// A suspected logging error, without which the model would hold.
+    pub suspicion: Option<Suspicion>,
     /// Rms by which the state before the record still moves the prediction, at most, if it was
     /// within what the record itself reaches.
     pub start: f64,
     /// Standard deviation of what the model makes of the input; `None` where that cannot be told.
     pub made_of_input: Option<f64>,
+    /// Severe defects of the columns that the model reads.
+    pub spoilt: Vec<Defect>,
     /// Seconds at the start that do not count.
     pub left_out: f64,
     /// The verdict.
@@ -159,8 +162,8 @@ impl Check {
         let mut played = Played::of(&record, given, cutoff)?;
         played.data.notes.extend(remarks(given, cutoff));
         let mut check = Self::judged(played, given)?;
-        if check.verdict == Verdict::DoesNotHold && !check.is_inverted() {
-            check.otherwise = check.logged_otherwise(&record, given, cutoff);
+        if check.verdict == Verdict::DoesNotHold {
+            check.suspicion = check.suspicion(&record, given, cutoff);
         }
         Ok(check)
     }
@@ -193,7 +196,8 @@ impl Check {
             about: given.about.clone(),
             outside: outside(&data, given),
             depends_on: Vec::new(),
-            otherwise: None,
+            suspicion: None,
+            spoilt: spoilt(&data, given),
             made_of_input: play::made_of_input(&data, given, &model.prediction),
             left_out: from as f64 * data.dt * data.stride as f64,
             verdict: Verdict::CannotTell,
@@ -207,7 +211,7 @@ impl Check {
             let share = three_digits(100.0 * check.start / check.deviation);
             check.data.notes.push(format!("the motion before the record is unknown, and the model's initial state changes the prediction by up to {share} % of the output's standard deviation"));
         }
-        check.verdict = check.found(given);
+        check.verdict = check.found();
         if check.verdict == Verdict::DoesNotHold {
             let held = [moved, vec![1.0; check.data.target.len()]].map(Stretch::from);
             let behind = Solution {
@@ -219,17 +223,8 @@ impl Check {
         Ok(check)
     }
 
-    /// Whether the model holds but for the sign of the output.
-    #[must_use]
-    pub fn is_inverted(&self) -> bool {
-        let within = self
-            .allowed
-            .is_some_and(|most| self.rmse_gain_offset <= most);
-        within && self.line.gain.value < 0.0
-    }
-
-    fn found(&self, given: &Given) -> Verdict {
-        if self.spoilt(given).next().is_some() {
+    fn found(&self) -> Verdict {
+        if !self.spoilt.is_empty() {
             return Verdict::DefectiveRecord;
         }
         let Some(allowed) = self.allowed.filter(|_| !self.is_quiet()) else {
@@ -274,15 +269,32 @@ impl Check {
         self.rmse_gain_offset.powi(2) <= MENDED * self.rmse.powi(2)
     }
 
-    /// Grave defects of what the model rests on.
-    fn spoilt<'a>(&'a self, given: &'a Given) -> impl Iterator<Item = &'a Defect> {
-        let reads = given.reads();
-        self.data.defects.iter().filter(move |defect| {
-            let name = defect.channel.as_str();
-            let unread =
-                self.data.channels.iter().any(|c| c.name == name) && !reads.contains(&name);
-            defect.grave && !unread
-        })
+    /// Whether the error is the sensor's noise.
+    fn is_noise(&self) -> bool {
+        self.rmse <= NOISE * self.data.noise_floor
+    }
+
+    /// The error up to which the model holds, in words.
+    #[must_use]
+    pub fn rule(&self) -> String {
+        let noise = format!("{NOISE} times the noise floor");
+        let Some(own) = self.reference() else {
+            return noise;
+        };
+        if HOLDS * own > NOTHING {
+            return format!(
+                "the larger of two values: {} of the standard deviation (less than {HOLDS} times the model's own held-out error, because above this limit a model explains less than half of the output's variance); and {noise}",
+                percent(NOTHING)
+            );
+        }
+        let own = format!("{HOLDS} times the model's own held-out error");
+        match self.about.held_out_rmse.is_some() {
+            true => format!(
+                "the largest of three values: {own}, as a share of the standard deviation; {own} in the output's unit, but at most {} of the standard deviation; and {noise}",
+                percent(FAINT)
+            ),
+            false => format!("the larger of two values: {own}, as a share of the standard deviation; and {noise}"),
+        }
     }
 
     /// Whether the output moves so little that a model cannot be told from a constant.
@@ -301,13 +313,6 @@ impl Check {
     #[must_use]
     pub fn is_as_at_home(&self) -> bool {
         at_home(&self.about).is_some_and(|own| self.rmse <= HOLDS * own)
-    }
-
-    /// Whether an offset alone is what has moved.
-    #[must_use]
-    pub fn offset_alone(&self) -> bool {
-        let rest = self.rmse_offset();
-        self.allowed.is_some_and(|allowed| rest <= allowed)
     }
 
     /// Rms error with an offset alone.
@@ -341,6 +346,17 @@ impl Check {
         }
         csv(&self.data, &segments, &columns)
     }
+}
+
+/// Severe defects of the columns that the model reads.
+fn spoilt(data: &Prepared, given: &Given) -> Vec<Defect> {
+    let reads = given.reads();
+    let is_read = |name: &str| {
+        data.channels.iter().all(|channel| channel.name != name) || reads.contains(&name)
+    };
+    let defects = data.defects.iter();
+    let defects = defects.filter(|defect| defect.grave && is_read(&defect.channel));
+    defects.cloned().collect()
 }
 
 fn reference(about: &About) -> Option<f64> {

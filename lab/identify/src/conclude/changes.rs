@@ -1,6 +1,7 @@
 //! Findings that only the held-out segment shows: a changed rig, or clocks that differ.
 
 use super::errors::RISES;
+use super::files_apart::LINE_LEAVES;
 use super::final_fit::FinalFit;
 use super::finding::Finding;
 use crate::algebra::line;
@@ -50,13 +51,6 @@ pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Vec<Finding> {
 /// deviation, although the error of the baseline model is below the second. Both are choices: a
 /// term for a missing effect is only about as large as the error of the baseline model.
 const STANDS_FOR: (f64, f64) = (0.9, 0.3);
-
-/// Multiple of the noise floor above which the sentence says that motion was not measured.
-const UNSEEN: f64 = 3.0;
-
-/// For a file that is held out as a whole: another gain and offset are reported as the cause of its
-/// error if they leave at most this share of it. A choice.
-const LINE_LEAVES: f64 = 0.25;
 
 /// The errors on the fit and on the held-out segment, as shares of the output's standard deviation
 /// on each, if the held-out error means another rig.
@@ -113,7 +107,7 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let left: Vec<f64> = pairs.map(|(y, x)| y - gain * x - offset).collect();
     let share = |rmse: Segments| rmse.normalised(data, target).held_out;
     let (error, now) = (share(Segments::of(data, &left)), share(done.rmse));
-    if error >= LINE_LEAVES * now {
+    if error > LINE_LEAVES * now {
         let structure = &done.solution.structure;
         let may_help = structure.hysteresis && structure.own_gains == 0;
         return may_help.then_some(Finding::HeldOutFileDiffers);
@@ -191,7 +185,7 @@ pub(super) fn velocity(data: &Prepared) -> Option<Finding> {
 
 /// Motion of the input that was not measured, if the residual exceeds the noise.
 pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<Finding> {
-    let is_left = data.noise_floor > 0.0 && done.rmse.fit > UNSEEN * data.noise_floor;
+    let is_left = data.noise_floor > 0.0 && done.rmse.fit > AT_FLOOR * data.noise_floor;
     let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);
     is.then(|| Finding::MotionUnseen {
         input: data.input.name.clone(),

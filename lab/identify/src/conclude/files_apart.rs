@@ -5,20 +5,18 @@ use super::by_file::{nrmse_by_file, rows_of};
 use super::final_fit::FinalFit;
 use super::finding::Finding;
 use crate::algebra::line;
+use crate::alteration::HALF;
 use crate::fit::{fit, Segments, Solution};
 use crate::ledger::{FileApart, Ledger, RigsApart};
 use crate::model::structure::Structure;
 use crate::problem::{Piece, Prepared};
 
-/// Files belong to several configurations if separate gains reduce the error of the baseline model
-/// below this share.
-pub(crate) const OTHER_CONFIGURATION: f64 = 0.5;
 /// The gains of another file describe a file if its error with them is at most this share of its
 /// output's standard deviation ...
 const SAME_ERROR: f64 = 0.1;
 /// ... and with an additional gain and offset, if its error is then at most this share of that
 /// error ...
-const LINE_LEAVES: f64 = 0.25;
+pub(super) const LINE_LEAVES: f64 = 0.25;
 /// ... and of its standard deviation: a file that the model does not describe at all has no gain.
 /// All three are choices.
 const LINE_ERROR: f64 = 0.5;
@@ -59,7 +57,7 @@ pub(crate) fn judge_files(
     let Some(own) = own.filter(|_| !ledger.is_stopped()) else {
         return;
     };
-    if own.rmse.fit >= OTHER_CONFIGURATION * done.rmse.fit {
+    if own.rmse.fit >= HALF * done.rmse.fit {
         ledger.apart = far_apart(data, own, done);
         return;
     }
@@ -90,7 +88,7 @@ fn far_apart(data: &Prepared, own: &Solution, done: &FinalFit) -> Vec<FileApart>
     let (Some(together), Some(alone)) = (share(&done.solution), share(own)) else {
         return Vec::new();
     };
-    if alone >= OTHER_CONFIGURATION * together {
+    if alone >= HALF * together {
         return Vec::new();
     }
     let mut apart = files_apart(data, own);

@@ -1,7 +1,9 @@
 //! Findings about a record, its model or the rig, besides the missing mechanisms. Each finding has
 //! a code, a severity and its evidence; [`Finding::words`] gives its sentences.
 
-use crate::ledger::{ChannelApart, CoarseChannel, FileApart};
+use super::line::Fitted;
+use crate::alteration::Suspicion;
+use crate::ledger::{CoarseChannel, FileApart};
 use crate::record::Defect;
 use crate::score::explains::Explained;
 use crate::score::ranges::Outside;
@@ -43,8 +45,8 @@ pub enum Finding {
         /// The output's unit.
         unit: Option<String>,
     },
-    /// In one of the files, a channel has the opposite sign or is swapped with another channel.
-    ChannelDiffers(ChannelApart),
+    /// The records appear to be logged differently from what the model assumes.
+    LoggedDifferently(Suspicion),
     /// Neighbouring input rows are uncorrelated, and the output follows the input row by row.
     RowsShuffled {
         /// The input's column.
@@ -178,17 +180,6 @@ pub enum Finding {
         /// Its held-out error.
         error: f64,
     },
-    /// Input and output may be exchanged.
-    InputOutputSwapped {
-        /// The input's column.
-        input: String,
-        /// The output's column.
-        output: String,
-        /// Error of the final model.
-        before: f64,
-        /// Error of the baseline model with input and output exchanged.
-        after: f64,
-    },
     /// The positions of the held-out segment extend beyond those of the fit segment.
     Extrapolation(Outside),
     /// Part of the input's motion was not measured, but the hysteresis depends on it.
@@ -277,8 +268,6 @@ pub enum Finding {
     OutputLeads {
         /// Lead \[s\].
         seconds: f64,
-        /// Whether an effect that is missing from the model may be the cause.
-        may_be_effect: bool,
     },
     /// A limit set by the user ended the search.
     SearchStopped {
@@ -315,6 +304,96 @@ pub enum Finding {
         /// Number of terms.
         terms: usize,
     },
+    /// Validation: the error is that of the model on its own record.
+    ErrorAsExpected {
+        /// The error.
+        error: f64,
+        /// The held-out error on its own record.
+        own: f64,
+    },
+    /// Validation: in the output's unit, the error is that of the model on its own record.
+    ErrorAsExpectedInUnit {
+        /// The errors here and on its own record, in the output's unit.
+        rmse: [f64; 2],
+        /// The output's unit.
+        unit: Option<String>,
+        /// The error.
+        error: f64,
+        /// Whether the model holds.
+        holds: bool,
+    },
+    /// Validation: the error is the sensor's noise.
+    ErrorIsNoise {
+        /// The error.
+        error: f64,
+    },
+    /// Validation: the error is larger than that of the model on its own record.
+    ErrorTooLarge {
+        /// The error.
+        error: f64,
+        /// The held-out error on its own record.
+        own: Option<f64>,
+        /// The error with another gain and offset.
+        with_line: f64,
+    },
+    /// Validation: the error is slightly above the limit.
+    ErrorAtLimit {
+        /// The error.
+        error: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// Validation: the error exceeds the noise, and nothing says what error is expected.
+    ErrorWithoutLimit {
+        /// The error.
+        error: f64,
+    },
+    /// Validation: the output hardly exceeds the noise.
+    OutputAtNoise,
+    /// Validation: gain or offset has changed.
+    LineChanged {
+        /// The gain; `None` if the offset alone has changed.
+        gain: Option<Fitted>,
+        /// The offset, in the output's unit.
+        offset: f64,
+        /// The output's unit.
+        unit: Option<String>,
+        /// The error with both.
+        error: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// Validation: the gain has changed by more than a factor of two.
+    OutputUnitDiffers {
+        /// The output's column.
+        output: String,
+    },
+    /// Validation: the model was not exact on its own record.
+    ModelInexact {
+        /// The held-out error on its own record.
+        own: f64,
+    },
+    /// Validation: the model's own verdict was `not-transferable`.
+    ModelNotTransferable,
+    /// Validation: the variable that the residual depends on, if there is one.
+    ResidualDependsOn {
+        /// The variable.
+        variable: Option<String>,
+        /// Whether there are enough independent stretches for a test.
+        is_tested: bool,
+    },
+    /// Validation: the record exceeds the ranges of the model's own record.
+    RangesExceeded {
+        /// The ranges.
+        ranges: Vec<Outside>,
+    },
+    /// Validation: the input contributes little to the output of this record.
+    InputContributesLittle {
+        /// The input's column.
+        input: String,
+        /// Its contribution.
+        share: f64,
+    },
 }
 
 impl Finding {
@@ -324,7 +403,8 @@ impl Finding {
         match self {
             Self::OutputIntegrates { .. }
             | Self::FilesScaled { .. }
-            | Self::ChannelDiffers(_)
+            | Self::LoggedDifferently(_)
+            | Self::InputIsVelocity { .. }
             | Self::RowsShuffled { .. }
             | Self::InputAtRest { .. }
             | Self::ChannelTakesOver { .. }
@@ -332,8 +412,12 @@ impl Finding {
             | Self::RigChanged { .. }
             | Self::WorseThanConstant { .. }
             | Self::HeldOutRises { .. }
-            | Self::DefectiveMeasurement { .. } => Severity::Error,
+            | Self::DefectiveMeasurement { .. }
+            | Self::ErrorTooLarge { .. }
+            | Self::ModelNotTransferable => Severity::Error,
             Self::ResidualIsNoise
+            | Self::ErrorAsExpected { .. }
+            | Self::ErrorIsNoise { .. }
             | Self::PreslidingIsBacklash { .. }
             | Self::HysteresisLeftOut
             | Self::FrictionWithTension

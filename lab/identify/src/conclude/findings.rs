@@ -11,13 +11,13 @@ use super::errors::{
 };
 use super::files_apart::{another_zero, files_scaled, several_rigs};
 use super::final_fit::FinalFit;
-use super::finding::Finding;
+use super::finding::{Finding, Severity};
 use super::intervals::term_title;
 use super::lacks::lacks;
 use super::no_model::no_model;
 use super::resolution::coarse;
 use super::rivals::each_pair_once;
-use super::signs::{falls, of_temperature, of_tension, of_the_motion, swapped, turns_against};
+use super::signs::{falls, of_temperature, of_tension, of_the_motion, turns_against};
 use super::verdict::{self, is_one_stroke, spoils, Verdict};
 use crate::ledger::Ledger;
 use crate::model::catalogue::Candidate;
@@ -27,9 +27,6 @@ use crate::score::explains::{deviations, segments_differ};
 use crate::score::whiteness::is_white;
 use crate::search::policy::AT_FLOOR;
 use bowden::model::Source;
-
-/// Multiple of the noise floor above which clocks alone do not explain a lead. A choice.
-const MUCH: f64 = 3.0;
 
 /// The findings on a run with this verdict, besides the missing mechanisms.
 #[must_use]
@@ -62,7 +59,6 @@ pub fn findings(
     }
     if verdict == Verdict::DefectiveRecord {
         all.extend(files_scaled(data, ledger));
-        all.extend(ledger.channel_apart.clone().map(Finding::ChannelDiffers));
     }
     if verdict != Verdict::NotTransferable {
         all.extend(poor(data, done));
@@ -73,6 +69,8 @@ pub fn findings(
     all.extend(of_record(data, ledger, done));
     all.extend(of_model(data, ledger, done));
     all.extend(of_rounds(data, ledger, done, verdict));
+    // What questions the data comes before what they say.
+    all.sort_by_key(|finding| finding.severity() != Severity::Error);
     all
 }
 
@@ -167,7 +165,11 @@ fn one_stroke(data: &Prepared, done: &FinalFit) -> Option<Finding> {
 
 /// The findings about the record, its columns and its files.
 fn of_record(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<Finding> {
-    let mut all: Vec<Finding> = swapped(data, ledger).into_iter().collect();
+    let suspicion = ledger.suspicion.clone();
+    let mut all: Vec<Finding> = suspicion
+        .map(Finding::LoggedDifferently)
+        .into_iter()
+        .collect();
     all.extend(extrapolates(data, done));
     all.extend(unseen_motion(data, done));
     all.extend(several_rigs(ledger).or_else(|| another_zero(data, &done.solution)));
@@ -202,11 +204,8 @@ fn of_channel(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<Findi
         });
     }
     // A lead that is due to a channel of the wrong sign says nothing about clocks.
-    let lead = ledger.lead.filter(|_| ledger.channel_apart.is_none());
-    lead.map(|seconds| Finding::OutputLeads {
-        seconds,
-        may_be_effect: floors(data, done).is_some_and(|(fit, _)| fit > MUCH),
-    })
+    let lead = ledger.lead.filter(|_| ledger.suspicion.is_none());
+    lead.map(|seconds| Finding::OutputLeads { seconds })
 }
 
 /// The findings about the error, from the search, its rounds and the files.
@@ -267,7 +266,8 @@ pub fn sentence(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
     summary(data, ledger, done, found, &findings)
 }
 
-/// The sentence on the missing mechanisms, if the model transfers, and the findings in words.
+/// The findings in words, with the sentence on the missing mechanisms after the errors if the model
+/// transfers.
 pub(crate) fn summary(
     data: &Prepared,
     ledger: &Ledger,
@@ -276,7 +276,12 @@ pub(crate) fn summary(
     findings: &[Finding],
 ) -> String {
     let is_model = !matches!(found, Verdict::NoInputDependence | Verdict::NotTransferable);
-    let first = is_model.then(|| lacks(data, ledger, done));
-    let all = first.into_iter().chain(findings.iter().map(Finding::words));
-    all.collect::<Vec<String>>().join(" ")
+    let mut all: Vec<String> = findings.iter().map(Finding::words).collect();
+    if is_model {
+        let errors = findings
+            .iter()
+            .take_while(|f| f.severity() == Severity::Error);
+        all.insert(errors.count(), lacks(data, ledger, done));
+    }
+    all.join(" ")
 }

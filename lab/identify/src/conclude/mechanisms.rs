@@ -3,6 +3,7 @@
 //! The terms of one mechanism describe one curve. Another record of the same rig often gives other
 //! terms, but usually the same mechanism.
 
+use super::changes::velocity;
 use super::curve::Knot;
 use super::final_fit::FinalFit;
 use super::intervals::term_name;
@@ -267,8 +268,9 @@ fn lack(
         alternatives.sort_unstable();
         alternatives.dedup();
     }
-    // The clocks explain as much.
-    is_high &= ledger.lead.is_none();
+    // Something in the data explains as much: the clocks, or the columns.
+    let is_doubtful = ledger.suspicion.is_some() || velocity(data).is_some();
+    is_high &= ledger.lead.is_none() && !is_doubtful;
     // They represent all terms of the search, not only the first.
     let is_whole = !ledger.beyond.iter().any(|round| is_own(&round));
     let others = ledger.descriptions.iter();

@@ -66,13 +66,19 @@ fn only_held_out_is_lost(data: &Prepared, declared: &Solution, held_out: Explain
         && judged(before, declared, declared) >= LEAST_EXPLAINED
 }
 
+/// Whether one of the files appears to be logged differently from the others.
+fn differs_in_a_file(ledger: &Ledger) -> bool {
+    let suspicion = ledger.suspicion.as_ref();
+    suspicion.is_some_and(|suspicion| suspicion.path.is_some())
+}
+
 /// Whether there is no model of the input, or no common model of all files.
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
     let shares = explained(data, &done.solution);
     let little = judged(shares, &ledger.declared, &done.solution) < LEAST_EXPLAINED
         && !is_other_file(data, done)
         && !only_held_out_is_lost(data, &ledger.declared, shares);
-    ledger.integrates || !ledger.apart.is_empty() || ledger.channel_apart.is_some() || little
+    ledger.integrates || !ledger.apart.is_empty() || differs_in_a_file(ledger) || little
 }
 
 /// Why there is no model.
@@ -89,8 +95,12 @@ pub(super) fn no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Fin
     if let Some(scaled) = files_scaled(data, ledger) {
         return scaled;
     }
-    if let Some(apart) = &ledger.channel_apart {
-        return Finding::ChannelDiffers(apart.clone());
+    if let Some(suspicion) = ledger
+        .suspicion
+        .clone()
+        .filter(|_| differs_in_a_file(ledger))
+    {
+        return Finding::LoggedDifferently(suspicion);
     }
     if data.is_shuffled() {
         return Finding::RowsShuffled { input, output };

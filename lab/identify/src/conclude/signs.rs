@@ -5,7 +5,6 @@ use super::finding::Finding;
 use super::intervals::{parameters, term_title};
 use crate::algebra::line;
 use crate::fit::{Segments, Solution};
-use crate::ledger::Ledger;
 use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
@@ -133,17 +132,6 @@ pub(crate) fn comes_before(data: &Prepared) -> bool {
     let position = |row: usize| data.input.motion[row * data.stride].position;
     let (slope, _) = line(rows.map(|&i| (position(i), data.target[i])));
     data.mode == Mode::Torque && slope * area(data, &data.target) > 0.0
-}
-
-/// Input and output that may be exchanged.
-pub(super) fn swapped(data: &Prepared, ledger: &Ledger) -> Option<Finding> {
-    let [before, after] = ledger.exchanged?;
-    Some(Finding::InputOutputSwapped {
-        input: data.input.name.clone(),
-        output: data.output_name.clone(),
-        before,
-        after,
-    })
 }
 
 /// Area of the loop of a signal over the input: the integral of it times the input's rate.

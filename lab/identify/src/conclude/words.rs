@@ -2,7 +2,9 @@
 
 use super::errors::percent;
 use super::finding::Finding;
-use crate::ledger::{ChannelApart, CoarseChannel, FileApart};
+use super::numbers::{number, with_interval};
+use crate::alteration::{Alteration, Suspicion};
+use crate::ledger::{CoarseChannel, FileApart};
 use crate::score::explains::Explained;
 use crate::score::ranges::Outside;
 
@@ -26,7 +28,7 @@ impl Finding {
                 format!("The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. There was no search. Differentiate `{output}` first, or swap the columns if {swap}.")
             }
             Self::FilesScaled { files, of, unit } => scaled(files, *of, unit.as_deref()),
-            Self::ChannelDiffers(apart) => differs(apart),
+            Self::LoggedDifferently(suspicion) => suspected(suspicion),
             Self::RowsShuffled { input, output } => format!("This record gives no model: neighbouring rows of the input `{input}` are unrelated, but `{output}` follows it row by row. Are the rows in time order?"),
             Self::InputAtRest { input } => format!("This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."),
             Self::ChannelTakesOver { input, explains, channels, alone } => format!(
@@ -128,11 +130,6 @@ impl Finding {
             }
             Self::OneStroke { input } => format!("`{input}` reverses fewer than two times on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions."),
             Self::InputIsVelocity { input } => format!("Is `{input}` a velocity? The input must be a displacement: use the position as the input, or integrate this column."),
-            Self::InputOutputSwapped { input, output, before, after } => format!(
-                "Are `{input}` and `{output}` swapped? `{output}` leads `{input}`. With the two columns swapped, the baseline model has an error of {} of the output's standard deviation instead of {}.",
-                percent(*after),
-                percent(*before)
-            ),
             Self::Extrapolation(Outside { channel, unit, seen, here, .. }) => {
                 let unit = spaced(unit.as_deref());
                 let ends = |[low, high]: [f64; 2]| format!("{} to {}", four_digits(low), four_digits(high));
@@ -156,13 +153,7 @@ impl Finding {
                 format!("The preload steps at the start of `{path}`: does the zero of a sensor differ in this file?{gains}")
             }
             Self::CoarseSensor { channel, unit } => coarse(channel, unit.as_deref()),
-            Self::OutputLeads { seconds, may_be_effect } => {
-                let ms = 1e3 * seconds;
-                match may_be_effect {
-                    true => format!("In the model the output precedes the input by about {ms:.1} ms, which is not causal: either the two were logged with different clocks, or the lead is an effect that the model lacks."),
-                    false => format!("The output precedes the input by about {ms:.1} ms, which is not causal: were both logged with the same clock?"),
-                }
-            }
+            Self::OutputLeads { seconds } => format!("In the model the output precedes the input by about {:.1} ms, which is not causal: were both logged with the same clock? If they were, the model lacks an effect that looks like a lead.", 1e3 * seconds),
             Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
                 true => format!("The output moves {:.0} times less on the held-out segment than on the fit segment: their percentages are not comparable.", fit / held_out),
                 false => format!("The output moves {:.0} times more on the held-out segment than on the fit segment: their percentages are not comparable.", held_out / fit),
@@ -196,7 +187,84 @@ impl Finding {
             Self::RoundRaises { term, after } => format!("On held-out data the error falls up to round {after}; {term} raises it."),
             Self::FileWorse { path, before, after } => format!("The error rises for {path}: {:.1} % → {:.1} %.", 100.0 * before, 100.0 * after),
             Self::ManyTerms { .. } => "Terms after the third one have little meaning: several effects would fit equally well.".to_owned(),
+            // Of a validation.
+            Self::ErrorAsExpected { error, own } => format!("The model holds: its error is {} of this record's output, compared with {} on the held-out part of its own record; nothing was refitted.", percent(*error), percent(*own)),
+            Self::ErrorAsExpectedInUnit { rmse: [here, own], unit, error, holds } => {
+                let unit = spaced(unit.as_deref());
+                let amount = |rmse: f64| number(rmse, Some(0.05 * rmse));
+                let verdict = match holds {
+                    true => "The model holds",
+                    false => "This record is inconclusive",
+                };
+                let advice = match holds {
+                    true => "",
+                    false => " Record a larger motion.",
+                };
+                format!("{verdict}: its error is {}{unit}, compared with {}{unit} on the held-out part of its own record. The output moves less here, so this error is {} of the output.{advice}", amount(*here), amount(*own), percent(*error))
+            }
+            Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is the sensor's noise; nothing was refitted.", percent(*error)),
+            Self::ErrorTooLarge { error, own, with_line } => {
+                let own = own.map_or_else(
+                    || "an unknown error on its own record (its file states none)".to_owned(),
+                    |own| format!("{} on the held-out part of its own record", percent(own)),
+                );
+                format!("The model does not hold: its error is {} of this record's output, compared with {own}; with another gain and offset it is {}.", percent(*error), percent(*with_line))
+            }
+            Self::ErrorAtLimit { error, limit } => format!("This record is inconclusive: the error is {} of its output, and the limit is {}. Use a record of the same motion as the model's own.", percent(*error), percent(*limit)),
+            Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file states no error to compare it with.", percent(*error)),
+            Self::OutputAtNoise => "The output moves by little more than the noise: record a larger motion.".to_owned(),
+            Self::LineChanged { gain, offset, unit, error, limit } => {
+                let offset = format!("{}{}", number(*offset, Some(0.05 * offset.abs())), spaced(unit.as_deref()));
+                let what = match gain {
+                    None => format!("The offset has changed by {offset}"),
+                    Some(gain) => format!("The gain has changed by a factor of {} (and the offset by {offset})", with_interval(gain.value, gain.ci95)),
+                };
+                format!("{what}: with this correction the error is {}; the limit is {}.", percent(*error), percent(*limit))
+            }
+            Self::OutputUnitDiffers { output } => format!("Is `{output}` in another unit here, or calibrated differently?"),
+            Self::ModelInexact { own } => format!("The model was not exact on its own record (an error of {}): on another motion such a model may have a larger error although the rig is the same.", percent(*own)),
+            Self::ModelNotTransferable => "The model's own verdict was `not-transferable`: do not use it on another record.".to_owned(),
+            Self::ResidualDependsOn { variable: None, .. } => "The residual depends on no measured quantity, as far as this record shows.".to_owned(),
+            Self::ResidualDependsOn { variable: Some(variable), is_tested } => {
+                let proposal = match is_tested {
+                    true => "",
+                    false => " (tentative: too few independent stretches for a test)",
+                };
+                format!("The residual depends on {variable}{proposal}.")
+            }
+            Self::RangesExceeded { ranges } => {
+                let ranges: Vec<String> = ranges.iter().map(|one| format!("the {} of {}", one.quantity, one.channel)).collect();
+                format!("The record exceeds the model's ranges in {}: there the model extrapolates.", ranges.join(", "))
+            }
+            Self::InputContributesLittle { input, share } => format!("The model hardly depends on `{input}`, which contributes only {} of the output of this record: this validation would hardly show a change of that part of the transmission.", percent(*share)),
         }
+    }
+}
+
+impl Finding {
+    /// What to check before anything else, if the finding questions the data themselves.
+    #[must_use]
+    pub fn headline(&self) -> Option<String> {
+        Some(match self {
+            Self::OutputIntegrates { input, output, .. } => {
+                format!("CHECK THE COLUMNS: {output} integrates {input}")
+            }
+            Self::FilesScaled { files, .. } => {
+                format!("CHECK {}: its output has another gain", files.first()?.path)
+            }
+            Self::LoggedDifferently(suspicion) => {
+                let place = suspicion.path.as_deref().unwrap_or("THE COLUMNS");
+                let asked = question(&suspicion.alteration).replace('`', "");
+                format!(
+                    "CHECK {place}: {}{}?",
+                    asked[..1].to_lowercase(),
+                    &asked[1..]
+                )
+            }
+            Self::RowsShuffled { .. } => "CHECK THE ROWS: are they in time order?".to_owned(),
+            Self::InputIsVelocity { input } => format!("CHECK THE COLUMNS: is {input} a velocity?"),
+            _ => return None,
+        })
     }
 }
 
@@ -280,34 +348,55 @@ fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
     )
 }
 
-/// A channel that was logged differently in one file.
-fn differs(apart: &ChannelApart) -> String {
-    let ChannelApart {
+/// The question about an alteration, without its question mark.
+fn question(alteration: &Alteration) -> String {
+    match alteration {
+        Alteration::Reversed { column } => format!("Does `{column}` have the opposite sign"),
+        Alteration::Scaled { column, .. } => format!("Is `{column}` in another unit"),
+        Alteration::Swapped { column, other } => format!("Are `{column}` and `{other}` swapped"),
+        Alteration::Late { .. } => "Is the output late, or logged with another clock".to_owned(),
+    }
+}
+
+/// A record that may have been logged differently.
+fn suspected(suspicion: &Suspicion) -> String {
+    let Suspicion {
+        alteration,
         path,
-        channel,
-        swapped_with,
-        names,
+        terms,
         before,
         after,
-    } = apart;
-    let (asked, mended) = match swapped_with {
-        None => (
-            format!("Does `{channel}` have the opposite sign in `{path}`?"),
-            "its sign reversed",
-        ),
-        Some(other) => (
-            format!("Are `{channel}` and `{other}` swapped in `{path}`?"),
-            "both swapped",
-        ),
+    } = suspicion;
+    let place = path
+        .as_ref()
+        .map_or_else(String::new, |path| format!(" in `{path}`"));
+    let undone = match alteration {
+        Alteration::Reversed { .. } => "With its sign reversed".to_owned(),
+        Alteration::Scaled { factor, .. } => {
+            let degrees = match (50.0..60.0).contains(factor) {
+                true => " (degrees instead of radians?)",
+                false => "",
+            };
+            format!("With it divided by {}{degrees}", four_digits(*factor))
+        }
+        Alteration::Swapped { .. } => "With the two columns swapped".to_owned(),
+        Alteration::Late { seconds } => {
+            let direction = if *seconds > 0.0 { "earlier" } else { "later" };
+            format!(
+                "With the output {} ms {direction}",
+                four_digits(1e3 * seconds.abs())
+            )
+        }
     };
-    let what = match names.as_slice() {
-        [] => "the search finds no term".to_owned(),
-        names => format!("the search finds {}", names.join(", then ")),
+    let found = match terms.as_slice() {
+        [] => String::new(),
+        terms => format!(" the search finds {} and", terms.join(", then ")),
     };
     format!(
-        "{asked} With {mended}, {what}, and the error of the fit is {:.2} % of the output's standard deviation instead of {:.2} %: the terms named here only compensate for this mistake. Correct the file first.",
-        100.0 * after,
-        100.0 * before
+        "{}{place}? {undone},{found} the error is {} of the output's standard deviation instead of {}.",
+        question(alteration),
+        percent(*after),
+        percent(*before)
     )
 }
 

@@ -4,20 +4,19 @@ use super::asked::{label, Asked};
 use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
-use crate::conclude::channel_apart::channel_apart;
-use crate::conclude::files_apart::{judge_files, with_own_gains, OTHER_CONFIGURATION};
+use crate::alteration::HALF;
+use crate::conclude::files_apart::{judge_files, with_own_gains};
 use crate::conclude::final_fit::FinalFit;
+use crate::conclude::logged::Run;
 use crate::conclude::mechanisms::FileAlone;
 use crate::conclude::resolution::{coarse_channels, told};
-use crate::conclude::signs::comes_before;
 use crate::conclude::trace::trace;
 use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector, ModelFile};
-use crate::fit::{fit, Segments, Solution};
+use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::record::Record;
-use crate::search::policy::AT_FLOOR;
 use std::cell::Cell;
 
 /// A request for one or several records.
@@ -126,30 +125,7 @@ impl Close {
         let on_grids = |finer: &[Record]| self.on_grids(finer, data.cutoff);
         let coarse = coarse_channels(records, &done, on_grids);
         told(data, ledger, coarse);
-        ledger.exchanged = self.exchanged(records, &done);
         done
-    }
-
-    /// The error of the delivered model, and that of the baseline model with input and output
-    /// swapped, if the output leads the input and the second error is half of the first.
-    fn exchanged(&self, records: &[Record], done: &FinalFit) -> Option<[f64; 2]> {
-        let data = &done.data;
-        let is_much = done.rmse.fit > AT_FLOOR * data.noise_floor;
-        if !is_much || !comes_before(data) {
-            return None;
-        }
-        let exchange = |record: &Record| {
-            let mut record = record.clone();
-            std::mem::swap(&mut record.input.values, &mut record.output.values);
-            record
-        };
-        let records: Vec<Record> = records.iter().map(exchange).collect();
-        let other = self.on_grids(&records, data.cutoff)?;
-        let structure = self.asked.declared(&other).ok()?;
-        let share = |data: &Prepared, rmse: Segments| rmse.normalised(data, &data.target).fit;
-        let after = share(&other, fit(&other, &structure, None, 0.0)?.rmse);
-        let before = share(data, done.rmse);
-        (after < OTHER_CONFIGURATION * before).then_some([before, after])
     }
 
     /// What each of several records supports alone, with the common filter; empty if the search
@@ -216,12 +192,18 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     tell("fitting the final model");
     let done = question.concluded(records, &mut data, &mut ledger);
     judge_files(&data, own.as_ref(), &done, &mut ledger);
-    let has_time = asked.budget.is_none() && !ledger.is_stopped();
-    if records.len() > 1 && ledger.apart.is_empty() && has_time {
-        tell("testing each channel with the opposite sign in each file");
-        ledger.channel_apart = channel_apart(&data, &ledger, &done, |mended| {
-            asked.search(mended, &structure, &|_| {}).ok()
-        });
+    let has_time = asked.budget.is_none();
+    if ledger.apart.is_empty() && has_time {
+        tell("testing whether columns are swapped or reversed");
+        let run = Run {
+            records,
+            data: &data,
+            ledger: &ledger,
+            done: &done,
+            prepare: &|records| question.on_grids(records, data.cutoff),
+            search: &|data| asked.search(data, &structure, &|_| {}).ok(),
+        };
+        ledger.suspicion = run.suspicion();
     }
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
     // The result stands even if nothing can be handed over to firmware.
@@ -276,7 +258,7 @@ fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
 /// separate gains for each file.
 fn hint(declared: &Solution, own: &Solution) -> Option<String> {
     let left = own.rmse.fit / declared.rmse.fit;
-    (left < OTHER_CONFIGURATION).then(|| {
+    (left < HALF).then(|| {
         format!(
             "fitting separate gains for each file reduces the baseline model's error on the fit segments to {:.0} % of its value with common gains: try --per-file gains",
             100.0 * left

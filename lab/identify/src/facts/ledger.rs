@@ -7,7 +7,7 @@ use super::round::{fits, size, RoundFacts};
 use crate::conclude::by_file::{worse, Worse};
 use crate::conclude::curve::{curve, Knot};
 use crate::conclude::final_fit::FinalFit;
-use crate::conclude::finding::Told;
+use crate::conclude::finding::{Severity, Told};
 use crate::conclude::findings::{findings, no_name, summary};
 use crate::conclude::intervals::term_title;
 use crate::conclude::mechanisms::{mechanisms, Complete, FileAlone, Lack};
@@ -15,7 +15,7 @@ use crate::conclude::unneeded::{unneeded, Unneeded};
 use crate::conclude::verdict::{falls_up_to, verdict, Verdict};
 use crate::export::hand_over::HandOver;
 use crate::fit::Segments;
-use crate::ledger::{ChannelApart, FileApart, Gate, Ledger, Unknown};
+use crate::ledger::{Gate, Ledger, Unknown};
 use crate::model::Table;
 use crate::problem::Prepared;
 use crate::record::Mode;
@@ -62,12 +62,6 @@ pub struct Facts {
     pub segments_differ: bool,
     /// Shares of the held-out output's variance.
     pub explains: Explained,
-    /// Whether the output follows the integral of the input.
-    pub integrates: bool,
-    /// Files in which the output has another gain or offset than in the others.
-    pub apart: Vec<FileApart>,
-    /// A channel that was logged differently in one of the files.
-    pub channel_apart: Option<ChannelApart>,
     /// Files on which the final model is worse than the baseline model.
     pub worse: Vec<Worse>,
     /// The requested number of effects, if it ended the search.
@@ -236,9 +230,6 @@ impl Facts {
             deviation: Segments::deviation(data, &data.target),
             segments_differ: segments_differ(data),
             explains: explained(data, &done.solution),
-            integrates: ledger.integrates,
-            apart: ledger.apart.clone(),
-            channel_apart: ledger.channel_apart.clone(),
             worse: worse(data, &ledger.declared, &done.solution),
             stopped_by_request: ledger.stopped_by_request,
             stopped_by_budget: ledger.stopped_by_budget,
@@ -248,6 +239,22 @@ impl Facts {
             sentence: words.join(" "),
             last,
         }
+    }
+
+    /// The findings that speak against the use of the model.
+    pub fn errors(&self) -> impl Iterator<Item = &Told> {
+        let all = self.findings.iter();
+        all.filter(|told| told.severity == Severity::Error)
+    }
+
+    /// Whether the model can be used.
+    #[must_use]
+    pub fn is_usable(&self) -> bool {
+        self.errors().next().is_none()
+            && !matches!(
+                self.verdict,
+                Verdict::NoInputDependence | Verdict::NotTransferable | Verdict::DefectiveRecord
+            )
     }
 
     /// The exported model, if `--invertible` has made it different from the final model.

@@ -13,7 +13,6 @@ mod figures;
 mod hand_over;
 mod ledger;
 mod model;
-mod numbers;
 mod plan;
 mod power;
 mod record;
@@ -29,7 +28,6 @@ pub use figures::{BlockScores, Dependence, Figures};
 pub use hand_over::HandOverFacts;
 pub use ledger::{Detail, Facts, RejectedFacts, UnknownFacts};
 pub use model::{FinalFacts, GainsOfFile, ModelFacts};
-pub use numbers::{number, share, with_interval};
 pub use plan::{plan, Plan, Planned};
 pub use power::{power, PowerFacts, PowerRow, ShapeFacts};
 pub use record::{FileFacts, HeldOutOf, RecordFacts};
@@ -37,16 +35,17 @@ pub use round::{RivalFacts, RoundFacts, RoundFit, RoundModel, Size};
 pub use source::{read_with_source, Source};
 
 // The plain data of lower rooms that facts are made of.
-pub use crate::check::{
-    Errors, Fitted, Line, Otherwise, Outside, Verdict as CheckVerdict, HOLDS, NOISE,
-};
+pub use crate::alteration::{Alteration, Suspicion};
+pub use crate::check::{Errors, Outside, Verdict as CheckVerdict, HOLDS, NOISE};
 pub use crate::conclude::by_file::{FileErrors, FileShare, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::finding::{Finding, Severity, Told};
 pub use crate::conclude::intervals::{Parameter, Refusal};
+pub use crate::conclude::line::{Fitted, Line};
 pub use crate::conclude::mechanisms::{
     across, lacking, Across, Complete, DescribedBy, FileAlone, Lack, LackAlone,
 };
+pub use crate::conclude::numbers::{number, share, with_interval};
 pub use crate::conclude::signals::{File, Part, Segment, Signals, Worst};
 pub use crate::conclude::trace::Column;
 pub use crate::conclude::unneeded::Unneeded;
@@ -58,7 +57,7 @@ pub use crate::export::{LeftOut, ModelFile};
 pub use crate::fit::Segments;
 pub use crate::foresight::plan::{Aim, Experiment};
 pub use crate::foresight::power::{Answer, Question as PowerQuestion, SHARE, TRIALS, TRIALS_RANGE};
-pub use crate::ledger::{ChannelApart, FileApart, Gate, Grade, Share};
+pub use crate::ledger::{FileApart, Gate, Grade, Share};
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use crate::problem::clock::set_clock;
 pub use crate::problem::cost::Counts;

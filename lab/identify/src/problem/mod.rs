@@ -16,7 +16,6 @@
 
 pub use crate::algebra::Stretch;
 use crate::record::{Column, Defect, Mode};
-pub use altered::Alteration;
 use bowden::effect::Motion;
 pub(crate) use filter::is_silent;
 use filter::{derivative, ZeroPhase};
@@ -24,7 +23,6 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 mod against;
-mod altered;
 mod answered;
 mod blind;
 mod build;

@@ -4,7 +4,7 @@ use crate::rig::{check, nrmse, Closed};
 use bowden::model::Source;
 use bowden_lab::check::{Given, Seen, Verdict, HOLDS, NOISE};
 use bowden_lab::export::ShapeFile;
-use bowden_lab::facts::CheckFacts;
+use bowden_lab::facts::Finding;
 use bowden_lab::model::Variable;
 use bowden_synth::{Base, Mode, Planted, Recipe};
 use rayon::prelude::*;
@@ -95,10 +95,10 @@ fn a_gain_that_has_moved_by_ten_percent_is_told_from_a_model_that_does_not_hold(
         assert!((gain.value - 1.1).abs() < 1e-3, "{gain:?}");
         assert!(found.rmse_gain_offset < 0.1 * found.rmse);
         assert!(found.depends_on.is_empty());
-        let told = CheckFacts::new(&found).sentence;
+        let findings = found.findings();
         assert!(
-            told.starts_with("The gain has changed by a factor of 1.1"),
-            "{told}"
+            matches!(findings[0], Finding::LineChanged { gain: Some(_), .. }),
+            "{findings:?}"
         );
     }
 }
@@ -119,9 +119,11 @@ fn an_offset_that_has_moved_is_called_an_offset() {
     assert_eq!(found.verdict, Verdict::GainOrOffsetMoved);
     // Two newtons; the two records tell the offset to some hundredths.
     assert!((found.mean - 2.0).abs() < 0.05, "{}", found.mean);
-    assert!(found.offset_alone());
-    let told = CheckFacts::new(&found).sentence;
-    assert!(told.starts_with("The offset has changed by 2.0"), "{told}");
+    let findings = found.findings();
+    assert!(
+        matches!(findings[0], Finding::LineChanged { gain: None, .. }),
+        "{findings:?}"
+    );
 }
 
 #[test]
@@ -156,14 +158,17 @@ fn an_effect_that_came_after_the_model_makes_it_not_hold_and_its_variable_is_nam
         assert_eq!(found.verdict, Verdict::DoesNotHold, "{effect} {mode:?}");
         let first = found.depends_on.first().expect("a variable");
         assert_eq!(first.variable, variable, "{:?}", found.depends_on);
-        let words = variable.words(&found.data);
-        let told = CheckFacts::new(&found).sentence;
-        assert!(told.contains(&format!("depends on {words}")), "{told}");
+        let (variable, is_tested) = (Some(variable.words(&found.data)), first.p.is_some());
+        let finding = Finding::ResidualDependsOn {
+            variable,
+            is_tested,
+        };
+        assert!(found.findings().contains(&finding));
     }
 }
 
 #[test]
-fn where_the_model_holds_nothing_is_searched_and_the_sentence_says_it_plainly() {
+fn where_the_model_holds_nothing_is_searched() {
     let given = own_model(Mode::Displacement, 71_103, 0.0);
     let next = Recipe {
         seed: 72_103,
@@ -172,12 +177,11 @@ fn where_the_model_holds_nothing_is_searched_and_the_sentence_says_it_plainly() 
     let found = check(&given, &next);
     assert_eq!(found.verdict, Verdict::Holds);
     assert!(found.depends_on.is_empty());
-    let told = CheckFacts::new(&found).sentence;
+    let findings = found.findings();
     assert!(
-        told.starts_with("The model holds: its error is 0."),
-        "{told}"
+        matches!(findings[..], [Finding::ErrorAsExpected { .. }]),
+        "{findings:?}"
     );
-    assert!(told.contains("held-out part of its own record"), "{told}");
 }
 
 #[test]
@@ -225,18 +229,17 @@ fn without_a_held_out_error_only_noise_is_judged() {
         "{} of the floor",
         found.rmse / found.data.noise_floor
     );
-    assert!(CheckFacts::new(&found)
-        .sentence
-        .contains("the sensor's noise"));
+    assert!(matches!(found.findings()[0], Finding::ErrorIsNoise { .. }));
     let more = Recipe {
         effects: vec![Planted::with_gain("viscous", 0.05)],
         ..next
     };
     let found = check(&given, &more);
     assert_eq!(found.verdict, Verdict::CannotTell);
-    assert!(CheckFacts::new(&found)
-        .sentence
-        .contains("cannot tell whether the model holds"));
+    assert!(matches!(
+        found.findings()[0],
+        Finding::ErrorWithoutLimit { .. }
+    ));
 }
 
 #[test]
@@ -382,7 +385,5 @@ fn a_record_that_hardly_moves_cannot_tell() {
     };
     let found = check(&given, &still);
     assert_eq!(found.verdict, Verdict::CannotTell);
-    assert!(CheckFacts::new(&found)
-        .sentence
-        .contains("little more than the noise"));
+    assert_eq!(found.findings(), [Finding::OutputAtNoise]);
 }

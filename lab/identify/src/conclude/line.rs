@@ -1,37 +1,37 @@
-//! Gain and offset of a prediction, the only two numbers that a check fits.
+//! Gain and offset of a prediction, the only two numbers that a validation fits.
 
+use super::intervals::quantile;
 use crate::algebra::line;
-use crate::conclude::intervals::quantile;
 use crate::problem::Prepared;
 use crate::score::blocks::{blocks, BLOCKS};
 use std::ops::Range;
 
-/// A number that was fitted, with its interval.
+/// A fitted number with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Fitted {
     /// Estimate.
     pub value: f64,
-    /// 95 % interval, by blocks left out in turn; `None` where they do not tell.
+    /// 95 % interval, from leaving out each block in turn; `None` if it cannot be computed.
     pub ci95: Option<[f64; 2]>,
 }
 
 /// y ≈ gain · prediction + offset.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Line {
-    /// By what the prediction is multiplied.
+    /// Factor of the prediction.
     pub gain: Fitted,
-    /// What is added, in the output's unit.
+    /// Offset, in the output's unit.
     pub offset: Fitted,
 }
 
-/// Gain and offset have clearly moved from this share on, the offset's of the output's standard
-/// deviation, and from this multiple of half of their interval on. Both are choices; where the model
-/// describes the rig, neither moves from one of its records to the next (`--test ways calibration`).
+/// Gain and offset have changed if the change exceeds this share (for the offset, of the output's
+/// standard deviation) and this multiple of half of the interval. Both are choices: if the model
+/// describes the rig, neither changes from one record to the next (`--test ways calibration`).
 const MOVED: f64 = 0.05;
 const CLEARLY: f64 = 2.0;
 
 impl Fitted {
-    /// Whether it is clearly another than that value, in units of that scale.
+    /// Whether the number differs clearly from a value, in units of a scale.
     fn is_apart(&self, from: f64, scale: f64) -> bool {
         let by = (self.value - from).abs();
         let half = self.ci95.map(|[low, high]| (high - low) / 2.0);
@@ -40,13 +40,13 @@ impl Fitted {
 }
 
 impl Line {
-    /// Whether the gain has clearly moved.
+    /// Whether the gain has changed.
     #[must_use]
     pub fn gain_moved(&self) -> bool {
         self.gain.is_apart(1.0, 1.0)
     }
 
-    /// Whether the offset has, for an output of that standard deviation.
+    /// Whether the offset has changed, for an output of this standard deviation.
     #[must_use]
     pub fn offset_moved(&self, deviation: f64) -> bool {
         self.offset.is_apart(0.0, deviation)
@@ -54,7 +54,7 @@ impl Line {
 
     /// Least squares over the rows that count; intervals by the delete-one-block jackknife
     /// (Efron, 1982) on the sixteen blocks, with Student's t of fifteen degrees.
-    pub(super) fn fit(data: &Prepared, prediction: &[f64]) -> Self {
+    pub(crate) fn fit(data: &Prepared, prediction: &[f64]) -> Self {
         let rows = &data.split.fit;
         let whole = solve(data, prediction, rows, 0..0);
         let without = blocks(data).into_iter();
@@ -78,15 +78,14 @@ impl Line {
         }
     }
 
-    /// What it makes of a prediction.
+    /// A prediction with this gain and offset.
     pub(crate) fn of(&self, prediction: &[f64]) -> Vec<f64> {
         let line = |p: &f64| self.gain.value * p + self.offset.value;
         prediction.iter().map(line).collect()
     }
 }
 
-/// Gain and offset without the rows at those positions. A prediction that does not move has
-/// no gain: it keeps its own.
+/// Gain and offset without the rows at these positions. A constant prediction keeps its gain.
 fn solve(data: &Prepared, prediction: &[f64], rows: &[usize], out: Range<usize>) -> (f64, f64) {
     let kept = rows[..out.start].iter().chain(&rows[out.end..]);
     line(kept.map(|&i| (prediction[i], data.target[i])))

@@ -1,15 +1,14 @@
 //! Whether a model still holds on another record.
 
-mod sentence;
-
 use super::asked::Asked;
 use super::figures::Figures;
 use super::record::{channel_name, RecordFacts};
-use crate::check::{Check, Errors, Given, Line, Otherwise, Outside, Verdict};
+use crate::check::{summary, Check, Errors, Given, Outside, Verdict};
+use crate::conclude::finding::Told;
+use crate::conclude::line::Line;
 use crate::problem::Prepared;
 use crate::record::{Mode, Options, Record};
 use crate::score::dependences::Dependence;
-use sentence::sentence;
 use std::path::Path;
 
 /// A model on another record.
@@ -25,20 +24,12 @@ pub struct CheckFacts {
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
-    /// Rms error with an offset alone.
-    pub rmse_offset: f64,
-    /// Rms error after the correction (of the offset alone, if that is sufficient).
-    pub rmse_corrected: f64,
-    /// Mean of the error as it is.
-    pub mean: f64,
     /// Rms error up to which the model holds; `None` if nothing determines it.
     pub allowed: Option<f64>,
     /// The model's own held-out error, as a share of the standard deviation.
     pub reference: Option<f64>,
     /// The same in the output's unit, if the model file states it.
     pub reference_rmse: Option<f64>,
-    /// Whether the error in the output's unit is at most twice that.
-    pub is_as_at_home: bool,
     /// The errors that the model file states.
     pub came_with: Option<Errors>,
     /// The cut-off that the model's file states \[Hz\].
@@ -49,29 +40,15 @@ pub struct CheckFacts {
     pub outside: Vec<Outside>,
     /// The variables that the residual depends on, if the model does not hold.
     pub depends_on: Vec<DependsOn>,
-    /// A suspected logging error: the model does not hold, but would hold after its correction.
-    pub otherwise: Option<Otherwise>,
-    /// Whether the model holds except for the sign of the output.
-    pub is_inverted: bool,
-    /// Standard deviation of the input's contribution to the model's output, if it is known.
-    pub made_of_input: Option<f64>,
     /// Seconds at the start that are excluded.
     pub left_out: f64,
-    /// Whether only the offset has moved.
-    pub offset_alone: bool,
-    /// Whether the error is just above the limit, for a model that was not exact on its own record.
-    pub is_just_above: bool,
-    /// Whether the model's error on its own record exceeded the noise.
-    pub was_inexact: bool,
-    /// Whether its own verdict was `not-transferable`.
-    pub was_of_one_record: bool,
-    /// Whether gain and offset remove most of the squared error.
-    pub is_mended: bool,
-    /// Whether the output hardly exceeds the noise.
-    pub quiet: bool,
     /// The verdict.
     pub verdict: Verdict,
-    /// The verdict in one or two sentences.
+    /// The error up to which the model holds, in words.
+    pub rule: String,
+    /// The findings, the most important first.
+    pub findings: Vec<Told>,
+    /// The findings in words.
     pub sentence: String,
 }
 
@@ -217,53 +194,31 @@ fn named(label: &str, message: String) -> String {
 }
 
 impl CheckFacts {
-    /// The error up to which the model holds, in words.
-    #[must_use]
-    pub fn rule(&self) -> String {
-        sentence::rule(self)
-    }
-
     /// The facts of a validation.
     #[must_use]
     pub fn new(check: &Check) -> Self {
-        let offset_alone = check.offset_alone();
         let depends_on = check.depends_on.iter();
-        let mut facts = Self {
+        let findings = check.findings();
+        Self {
             record: RecordFacts::new(&check.data),
             line: check.line,
             deviation: check.deviation,
             rmse: check.rmse,
             rmse_gain_offset: check.rmse_gain_offset,
-            rmse_offset: check.rmse_offset(),
-            rmse_corrected: match offset_alone {
-                true => check.rmse_offset(),
-                false => check.rmse_gain_offset,
-            },
-            mean: check.mean,
             allowed: check.allowed,
             reference: check.reference(),
             reference_rmse: check.about.held_out_rmse,
-            is_as_at_home: check.is_as_at_home(),
             came_with: check.about.nrmse,
             own_cutoff: check.about.cutoff_hz,
             own_rate: check.about.rate_hz,
             outside: check.outside.clone(),
             depends_on: depends_on.map(|d| DependsOn::new(&check.data, d)).collect(),
-            otherwise: check.otherwise.clone(),
-            is_inverted: check.is_inverted(),
-            made_of_input: check.made_of_input,
             left_out: check.left_out,
-            offset_alone,
-            is_mended: check.is_mended(),
-            is_just_above: check.is_just_above(),
-            was_inexact: check.was_inexact(),
-            was_of_one_record: check.about.verdict.as_deref() == Some("not-transferable"),
-            quiet: check.is_quiet(),
             verdict: check.verdict,
-            sentence: String::new(),
-        };
-        facts.sentence = sentence(&facts);
-        facts
+            rule: check.rule(),
+            sentence: summary(&findings),
+            findings: findings.into_iter().map(Told::from).collect(),
+        }
     }
 }
 
