@@ -1,7 +1,7 @@
 //! Spectra: of the input, from which the default cut-off is taken, and of the fit segment.
 
 use super::{Prepared, ZeroPhase};
-use rustfft::{num_complex::Complex, FftPlanner};
+use bowden_fourier::{Complex, Transform};
 
 /// The smoother may change the input by at most this share of its half-range: the hysteresis and a
 /// smoother do not commute, so a rounded corner looks like a lag. With 0.1 %, friction is still
@@ -98,9 +98,7 @@ pub fn power(signal: &[f64]) -> Vec<f64> {
         let window = 0.5 - 0.5 * (2.0 * std::f64::consts::PI * (i as f64 + 0.5) / n as f64).cos();
         slot.re = (value - mean) * window;
     }
-    FftPlanner::new()
-        .plan_fft_forward(size)
-        .process(&mut buffer);
+    Transform::forward(size).apply(&mut buffer);
     buffer[..=size / 2].iter().map(|c| c.norm_sqr()).collect()
 }
 
@@ -119,7 +117,7 @@ pub(crate) fn power_of_fit(
     for &i in fit {
         buffer[i - first].re = (signal[i] - mean) * window((i - first) as f64 + 0.5, n as f64);
     }
-    FftPlanner::new().plan_fft_forward(n).process(&mut buffer);
+    Transform::forward(n).apply(&mut buffer);
     Some(buffer[..=n / 2].iter().map(|c| c.norm_sqr()).collect())
 }
 

@@ -14,7 +14,7 @@ use crate::problem::spectrum::power_of_fit;
 use crate::problem::{Channel, Prepared, MOST_RECORDS};
 use bowden::effect::Effect;
 use bowden::model::Source;
-use rustfft::num_complex::Complex;
+use bowden_fourier::Complex;
 use std::f64::consts::TAU;
 
 /// Level of the test, divided by the number of bins.

@@ -5,7 +5,7 @@
 
 use crate::problem::{Preparation, Prepared};
 use crate::record::{Column, Record};
-use rustfft::{num_complex::Complex, FftPlanner};
+use bowden_fourier::{Complex, Transform};
 use std::f64::consts::{PI, TAU};
 
 /// How a planned experiment moves.
@@ -158,8 +158,7 @@ impl Source<'_> {
     /// them stays. Scaled so that no signal leaves its recorded range.
     fn multisine(&self) -> Vec<Vec<f64>> {
         let n = self.signals[0].len();
-        let mut planner = FftPlanner::new();
-        let (there, back) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(n));
+        let (there, back) = (Transform::forward(n), Transform::inverse(n));
         let fade = |i: usize| {
             let end = (i.min(n - 1 - i) as f64 / (0.1 * n as f64)).min(1.0);
             0.5 - 0.5 * (PI * end).cos()
@@ -169,7 +168,7 @@ impl Source<'_> {
             let mut spectrum: Vec<_> = faded
                 .map(|(i, x)| Complex::new(fade(i) * (x - middle), 0.0))
                 .collect();
-            there.process(&mut spectrum);
+            there.apply(&mut spectrum);
             for k in 1..n.div_ceil(2) {
                 // Squares times the golden ratio: spread evenly over the turn, and the same always.
                 let phase = TAU * (k as f64 * k as f64 * 0.618_033_988_749_895).fract();
@@ -177,7 +176,7 @@ impl Source<'_> {
                 spectrum[k] = turned;
                 spectrum[n - k] = turned.conj();
             }
-            back.process(&mut spectrum);
+            back.apply(&mut spectrum);
             spectrum.iter().map(|c| c.re / n as f64).collect()
         };
         let channels = || std::iter::once(&self.data.input).chain(&self.data.channels);
