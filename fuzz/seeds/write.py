@@ -224,6 +224,9 @@ parquet = here / "../../lab/cli/tests/reading/files/tiny.parquet"
 hdf5 = here / "../../lab/cli/tests/reading/files/tiny_7_3.mat"
 (here / "record" / "mat_7_3").write_bytes(b"\0" + hdf5.read_bytes())
 cells = here / "../../lab/cli/tests/reading/files/cells_7_3.mat"
+for name in ("tiny.xlsx", "tiny.npy"):
+    own = here / "../../lab/cli/tests/reading/files" / name
+    (here / "record" / name.replace("tiny.", "")).write_bytes(b"\0" + own.read_bytes())
 (here / "record" / "mat_7_3_cells").write_bytes(b"\0" + cells.read_bytes())
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):
     (here / make.__name__ / "start").write_bytes(make())

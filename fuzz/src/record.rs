@@ -40,6 +40,7 @@ pub fn check(data: &[u8]) {
             11 => ["t", "x", "f"].map(str::to_owned).to_vec(),
             _ => Vec::new(),
         },
+        sheet: (choice & 37 == 37).then(|| "Sheet1".to_owned()),
         drop_bad: choice & 3 == 3,
     };
     match parse(&bytes, FILE, &options) {

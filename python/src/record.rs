@@ -22,6 +22,7 @@ pub struct Columns {
     rate: Option<f64>,
     header_line: Option<usize>,
     segment: Option<usize>,
+    sheet: Option<String>,
     names: Vec<String>,
     drop_bad: bool,
 }
@@ -39,6 +40,7 @@ impl Columns {
             rate: self.rate,
             header_line: self.header_line,
             segment: self.segment,
+            sheet: self.sheet,
             names: self.names,
             drop_bad: self.drop_bad,
         })

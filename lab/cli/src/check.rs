@@ -17,7 +17,7 @@ pub struct Check {
     /// The model: a file written by `identify --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// Another record from the same rig: CSV, JSON, .mat (v5, v7.3), Parquet or .npz.
+    /// Another record from the same rig: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz or .npy.
     #[arg(value_name = "RECORD")]
     record: PathBuf,
     #[command(flatten)]

@@ -30,7 +30,7 @@ enum PerFile {
 
 #[derive(Args, Default)]
 pub struct Close {
-    /// Records: CSV, JSON, .mat (v5, v7.3), Parquet or .npz, each also compressed with gzip; several from one
+    /// Records: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz or .npy, each also compressed with gzip; several from one
     /// rig for one joint model, or a pattern such as 'runs/*.csv' [default: the built-in record].
     /// With three or more records, the whole last record is held out.
     #[arg(value_name = "RECORD")]

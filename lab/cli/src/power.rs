@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Power {
-    /// A record: CSV, JSON, .mat (v5, v7.3), Parquet or .npz.
+    /// A record: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz or .npy.
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,

@@ -51,6 +51,9 @@ pub struct Columns {
     /// [default: all segments as one record if the time continues].
     #[arg(long, value_name = "N")]
     pub segment: Option<usize>,
+    /// Sheet of an Excel workbook [default: the first one with a table].
+    #[arg(long, value_name = "NAME")]
+    pub sheet: Option<String>,
     /// Column names of a text file without a header: t,x,f or 't [ms],,x [mm],f [N]'. An empty
     /// name excludes its column.
     #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
@@ -113,6 +116,7 @@ impl Columns {
             rate: self.rate,
             header_line: self.header_line,
             segment: self.segment,
+            sheet: self.sheet.clone(),
             names: self.names.clone(),
             drop_bad: self.drop_bad,
         };

@@ -13,19 +13,23 @@ pub(super) enum Kind {
     Parquet,
     /// A zip archive of NumPy's arrays.
     Npz,
+    /// One array of NumPy's.
+    Npy,
+    /// An Excel workbook, a zip archive of XML.
+    Xlsx,
 }
 
 /// Forms that are not read: their first bytes, their name, and what to do instead.
-const OTHERS: [(&[u8], &str, &str); 16] = [
+const OTHERS: [(&[u8], &str, &str); 15] = [
     (
         b"PK\x03\x04",
-        "an Excel workbook (.xlsx) or another zip archive",
-        SHEET,
+        "a zip archive without an Excel workbook (.xlsx)",
+        "unpack it, or save the sheet as CSV",
     ),
     (
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
-        "an old Excel workbook (.xls)",
-        SHEET,
+        "an old Excel workbook (.xls) or one with a password",
+        "save the sheet as CSV, or as .xlsx without a password",
     ),
     (b"%PDF", "a PDF", "export the values as CSV"),
     (b"TDSm", "a LabVIEW TDMS file", "export it as CSV or .mat"),
@@ -55,11 +59,6 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
     (b"MDF     ", "an ASAM MDF file", "export it as CSV or .mat"),
     (b"ARROW1", "an Arrow file", "save it as Parquet"),
     (
-        b"\x93NUMPY",
-        "a NumPy array",
-        "save its columns by name with `np.savez`",
-    ),
-    (
         b"SQLite format 3\0",
         "an SQLite database",
         "export the values as CSV",
@@ -71,7 +70,6 @@ const OTHERS: [(&[u8], &str, &str); 16] = [
     ),
 ];
 
-const SHEET: &str = "save the sheet as CSV";
 const HDF5: &str = "save it as CSV, Parquet or .mat v5";
 /// The command for MATLAB instead of its other forms.
 const V7: &str = "save it in MATLAB with `save -v7`";
@@ -107,8 +105,18 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     if matches!(bytes.get(124..128), Some(b"\x00\x01IM" | b"\x01\x00MI")) {
         return Ok(Kind::Mat);
     }
-    if is_npz(bytes) {
-        return Ok(Kind::Npz);
+    if bytes.starts_with(b"\x93NUMPY") {
+        return Ok(Kind::Npy);
+    }
+    if let Some(name) = first_of_zip(bytes) {
+        let is_office = |part: &&[u8]| name.starts_with(part);
+        let parts: [&[u8]; 4] = [b"[Content_Types].xml", b"_rels/", b"docProps/", b"xl/"];
+        if name.ends_with(b".npy") {
+            return Ok(Kind::Npz);
+        }
+        if parts.iter().any(is_office) {
+            return Ok(Kind::Xlsx);
+        }
     }
     if is_mat_4(bytes) {
         return refuse("a MATLAB file of version 4", V7);
@@ -119,13 +127,12 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     }
 }
 
-/// Whether a zip archive begins with an array of NumPy's: the length of the name is before it.
-fn is_npz(bytes: &[u8]) -> bool {
-    let length = bytes
-        .get(26..28)
-        .map(|own| usize::from(own[0]) | usize::from(own[1]) << 8);
-    let name = length.and_then(|length| bytes.get(30..30 + length));
-    bytes.starts_with(b"PK\x03\x04") && name.is_some_and(|name| name.ends_with(b".npy"))
+/// The name of the first file in a zip archive; the length of the name is before it.
+fn first_of_zip(bytes: &[u8]) -> Option<&[u8]> {
+    let own = bytes.strip_prefix(b"PK\x03\x04")?.get(22..)?;
+    let (length, rest) = own.split_first_chunk::<2>()?;
+    rest.get(2..)?
+        .get(..usize::from(u16::from_le_bytes(*length)))
 }
 
 /// Version 4 has no mark: a header of five numbers and a name that ends with NUL.

@@ -36,6 +36,12 @@ pub(super) struct Table<'a> {
 /// Assigns roles to the columns of a header.
 type Assign = fn(&mut Header, &Options) -> Result<Roles, RecordError>;
 
+/// Whether there are rows of numbers in a text whose cells tabs separate.
+#[cfg(feature = "xlsx")]
+pub(super) fn has_table(text: &str) -> bool {
+    Head::new(text, b'\t').tables().next().is_some()
+}
+
 /// Finds a table of numbers, whatever the names of its columns; every column has a role.
 pub(super) fn any<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
     let assign = roles::of_any;

@@ -1,4 +1,5 @@
-//! Reads a measured record (CSV, JSON, `.mat`, Parquet or `.npz`) into checked columns.
+//! Reads a measured record (CSV, JSON, `.xlsx`, `.mat`, Parquet, `.npz` or `.npy`) into checked
+//! columns.
 //!
 //! A record consists of a time axis, the transmission's input and output, and optional channels.
 //! Nothing is repaired silently: [`Record::notes`] lists what the reader did (a unit converted, a
@@ -59,6 +60,8 @@ mod thousands;
 mod time;
 mod units;
 mod vectors;
+#[cfg(feature = "xlsx")]
+mod workbook;
 mod wrapping;
 
 pub use agree::{agree, is_same_unit, to_unit};
@@ -69,6 +72,7 @@ pub use outline::{excerpt, outline, Line, Outline, Outlined};
 pub use roles::Part;
 pub use units::is_velocity;
 
+use encoding::Decoded;
 use header::Header;
 use kind::Kind;
 use roles::Roles;
@@ -131,6 +135,8 @@ pub struct Options {
     /// Column names of a text without names, each with its unit if it has one (`x [mm]`); a column
     /// with an empty name is not read. Empty if the text has its own names.
     pub names: Vec<String>,
+    /// Sheet of an Excel workbook; if `None`, the first one with a table.
+    pub sheet: Option<String>,
     /// Leave out rows with an empty cell, a NaN or the time stamp of the row before, instead of
     /// refusing the record.
     pub drop_bad: bool,
@@ -288,9 +294,21 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
 }
 
 fn unpacked_as(kind: Kind, bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
+    if let Some(sheet) = options.sheet.as_ref().filter(|_| kind != Kind::Xlsx) {
+        let sheet = error::shown(sheet, error::NAME_LENGTH);
+        let message = format!("--sheet {sheet}: the file is not an Excel workbook");
+        return Err(RecordError::new(message));
+    }
     match kind {
         Kind::Text => text_record(bytes, options),
-        _ => sheet::record(sheet::of(kind, bytes)?, options),
+        #[cfg(feature = "xlsx")]
+        Kind::Xlsx => {
+            let sheet = workbook::read(bytes, options)?;
+            let mut record = table_record(sheet.text(), options)?;
+            record.notes.splice(0..0, sheet.note);
+            Ok(record)
+        }
+        _ => sheet::record(sheet::of(kind, bytes, options)?, options),
     }
 }
 
@@ -299,6 +317,11 @@ fn text_record(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
     if json::is_json(&decoded.text) {
         return sheet::of_json(&decoded.text, options);
     }
+    table_record(decoded, options)
+}
+
+/// The record of a text that is a table.
+fn table_record(decoded: Decoded<'_>, options: &Options) -> Result<Record, RecordError> {
     let text = blanks::as_tabs(&decoded.text);
     let mut table = layout::find(&text, options)?;
     if !decoded.is_ended {

@@ -1,4 +1,4 @@
-//! NumPy's `.npz`: a zip archive with one array per file.
+//! NumPy's `.npz`, a zip archive with one array per file, and `.npy`, one array.
 //!
 //! Sources: PKWARE, *APPNOTE.TXT*; NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of
 //! numbers is a vector, or a matrix whose columns an array of as many texts names; the fields of a
@@ -19,27 +19,73 @@ fn damaged(what: &str) -> Damage {
 
 /// The arrays of an archive, each with its name.
 pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
+    let mut left = LIMIT;
+    let mut all = Vec::new();
+    for (name, at) in entries(bytes)? {
+        if let Some(own) = name.strip_suffix(".npy") {
+            let file = unpacked(bytes, at, left)?;
+            left -= file.len() as u64;
+            all.push((own.to_owned(), array(&file)?));
+        }
+    }
+    Ok(all)
+}
+
+/// The columns of an array that is a file by itself; `names` are those of a matrix.
+pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)>, Damage> {
+    let header = Header::read(bytes)?;
+    match (header.value(bytes)?, header.shape.as_slice()) {
+        (Value::Structures(mut rows), _) if names.is_empty() => Ok(rows.pop().unwrap_or_default()),
+        (Value::Structures(_), _) => {
+            Err("--names: the fields of the array have names already".to_owned())
+        }
+        (matrix @ Value::Numbers { .. }, [rows, columns]) => {
+            let count = *rows.min(columns);
+            if !names.is_empty() && names.len() != count {
+                return Err(format!(
+                    "the array has {count} columns, but --names lists {}",
+                    names.len()
+                ));
+            }
+            let names = Value::Text(names.to_vec());
+            Ok(vec![("data".to_owned(), matrix), ("names".to_owned(), names)])
+        }
+        (Value::Numbers { .. }, [values]) => Err(format!(
+            "is one column of {values} numbers; save a two-dimensional array, or name the columns with `np.savez`"
+        )),
+        (_, shape) if shape.len() != 2 && !header.fields.is_empty() => Err(format!(
+            "is an array with {} dimensions; it must have two, with one column per quantity",
+            shape.len()
+        )),
+        _ => Err("is an array of other values than real numbers".to_owned()),
+    }
+}
+
+/// The names of the files in an archive, and where their entries in the directory begin.
+fn entries(bytes: &[u8]) -> Result<Vec<(String, usize)>, Damage> {
     let end = b"PK\x05\x06";
     let end = bytes.windows(end.len()).rposition(|own| own == end);
     let end = end.ok_or_else(|| damaged("the zip archive is truncated"))?;
     let count = number::<2>(bytes, end + 10)?;
     let mut at = number::<4>(bytes, end + 16)?;
-    let mut left = LIMIT;
     let mut all = Vec::new();
     for _ in 0..count {
         let lengths = [28, 30, 32].map(|field| number::<2>(bytes, at + field));
         let [name, extra, comment] = lengths;
         let (name, extra, comment) = (name?, extra?, comment?);
-        let own = slice(bytes, at + 46, name)?;
-        let own = String::from_utf8_lossy(own).into_owned();
-        if let Some(own) = own.strip_suffix(".npy") {
-            let file = unpacked(bytes, at, left)?;
-            left -= file.len() as u64;
-            all.push((own.to_owned(), array(&file)?));
-        }
+        let own = String::from_utf8_lossy(slice(bytes, at + 46, name)?).into_owned();
+        all.push((own, at));
         at += 46 + name + extra + comment;
     }
     Ok(all)
+}
+
+/// The size of all files in an archive, as its directory states it \[bytes\].
+#[cfg(feature = "xlsx")]
+pub(super) fn unpacked_size(bytes: &[u8]) -> Result<u64, Damage> {
+    let sizes = entries(bytes)?.into_iter();
+    let mut sizes = sizes.map(|(_, at)| number::<4>(bytes, at + 24));
+    sizes.try_fold(0, |all, size| Ok(all + size? as u64))
 }
 
 /// The bytes of the file whose entry in the directory begins there; at most `left` of them.
@@ -83,51 +129,76 @@ fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
 
 /// The array of a file.
 fn array(file: &[u8]) -> Result<Value, Damage> {
-    if !file.starts_with(b"\x93NUMPY") {
-        return Err(damaged("an array has no header"));
-    }
-    let (from, length) = match file.get(6) {
-        Some(1) => (10, number::<2>(file, 8)?),
-        _ => (12, number::<4>(file, 8)?),
-    };
-    let header = String::from_utf8_lossy(slice(file, from, length)?).into_owned();
-    let data = file.get(from + length..).unwrap_or_default();
-    let value = |key: &str| header.split_once(key).map(|(_, rest)| rest.trim_start());
-    let shape = value("'shape':").and_then(|rest| rest.strip_prefix('(')?.split_once(')'));
-    let shape: Option<Vec<usize>> = shape.and_then(|(list, _)| {
-        let sizes = list
-            .split(',')
-            .map(str::trim)
-            .filter(|size| !size.is_empty());
-        sizes.map(|size| size.parse().ok()).collect()
-    });
-    let (Some(shape), Some(kind)) = (shape, value("'descr':")) else {
-        return Err(damaged("the header of an array"));
-    };
-    let by_column = value("'fortran_order':").is_some_and(|own| own.starts_with("True"));
-    let fields = fields(kind);
-    let size: usize = fields.iter().map(|(_, kind)| kind.size).sum();
-    let cells = shape
-        .iter()
-        .try_fold(1_usize, |all, size| all.checked_mul(*size));
-    if fields.is_empty() || size == 0 || shape.len() > 2 {
-        return Ok(Value::Other);
-    }
-    let rows =
-        cells.and_then(|cells| Some(data.get(..cells.checked_mul(size)?)?.chunks_exact(size)));
-    let rows = rows.ok_or_else(|| damaged("an array ends early"))?;
-    if let [(name, kind)] = fields.as_slice() {
-        return Ok(match (kind.letter, shape.as_slice()) {
-            ('U' | 'S', [_]) => Value::Text(rows.map(|cell| kind.text(cell)).collect()),
-            _ if !name.is_empty() => structure(&fields, rows),
-            (_, shape) => numbers(
-                rows.map(|cell| kind.number(cell)).collect(),
-                shape,
-                by_column,
-            ),
+    Header::read(file)?.value(file)
+}
+
+/// What an array is.
+struct Header {
+    shape: Vec<usize>,
+    /// The types of a cell; none where one is not known.
+    fields: Vec<(String, Kind)>,
+    by_column: bool,
+    /// Where the cells begin.
+    data: usize,
+}
+
+impl Header {
+    fn read(file: &[u8]) -> Result<Self, Damage> {
+        if !file.starts_with(b"\x93NUMPY") {
+            return Err(damaged("an array has no header"));
+        }
+        let (from, length) = match file.get(6) {
+            Some(1) => (10, number::<2>(file, 8)?),
+            _ => (12, number::<4>(file, 8)?),
+        };
+        let header = String::from_utf8_lossy(slice(file, from, length)?).into_owned();
+        let value = |key: &str| header.split_once(key).map(|(_, rest)| rest.trim_start());
+        let shape = value("'shape':").and_then(|rest| rest.strip_prefix('(')?.split_once(')'));
+        let shape: Option<Vec<usize>> = shape.and_then(|(list, _)| {
+            let sizes = list
+                .split(',')
+                .map(str::trim)
+                .filter(|size| !size.is_empty());
+            sizes.map(|size| size.parse().ok()).collect()
         });
+        let (Some(shape), Some(kind)) = (shape, value("'descr':")) else {
+            return Err(damaged("the header of an array"));
+        };
+        Ok(Self {
+            shape,
+            fields: fields(kind),
+            by_column: value("'fortran_order':").is_some_and(|own| own.starts_with("True")),
+            data: from + length,
+        })
     }
-    Ok(structure(&fields, rows))
+
+    /// The cells of its file.
+    fn value(&self, file: &[u8]) -> Result<Value, Damage> {
+        let Self { shape, fields, .. } = self;
+        let data = file.get(self.data..).unwrap_or_default();
+        let size: usize = fields.iter().map(|(_, kind)| kind.size).sum();
+        let cells = shape
+            .iter()
+            .try_fold(1_usize, |all, size| all.checked_mul(*size));
+        if fields.is_empty() || size == 0 || shape.len() > 2 {
+            return Ok(Value::Other);
+        }
+        let rows =
+            cells.and_then(|cells| Some(data.get(..cells.checked_mul(size)?)?.chunks_exact(size)));
+        let rows = rows.ok_or_else(|| damaged("an array ends early"))?;
+        if let [(name, kind)] = fields.as_slice() {
+            return Ok(match (kind.letter, shape.as_slice()) {
+                ('U' | 'S', [_]) => Value::Text(rows.map(|cell| kind.text(cell)).collect()),
+                _ if !name.is_empty() => structure(fields, rows),
+                (_, shape) => numbers(
+                    rows.map(|cell| kind.number(cell)).collect(),
+                    shape,
+                    self.by_column,
+                ),
+            });
+        }
+        Ok(structure(fields, rows))
+    }
 }
 
 /// The fields of a structured array as vectors.

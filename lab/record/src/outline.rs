@@ -3,12 +3,15 @@
 //! A view shows it to somebody who then chooses the columns. Nothing is refused here that can be
 //! shown: a cell without a number is NaN.
 
+use super::encoding::Decoded;
 use super::error::RecordError;
 use super::header::Header;
 use super::kind::{self, Kind};
 use super::layout::{self, cells, Table};
 use super::roles::{self, Part, Roles};
 use super::text::Rows;
+#[cfg(feature = "xlsx")]
+use super::workbook;
 use super::{blanks, clock_time, encoding, gzip, json, sheet, Mode, Options};
 
 /// The columns of a file.
@@ -65,6 +68,11 @@ pub fn excerpt(bytes: &[u8], line: usize, around: usize, options: &Options) -> V
     let unpacked = match kind::of(bytes) {
         Ok(Kind::Gzip) => gzip::unpack(bytes).unwrap_or_default(),
         Ok(Kind::Text) => bytes.to_vec(),
+        #[cfg(feature = "xlsx")]
+        Ok(Kind::Xlsx) => match workbook::read(bytes, options) {
+            Ok(sheet) => sheet.text().text.into_owned().into_bytes(),
+            Err(_) => return Vec::new(),
+        },
         _ => return Vec::new(),
     };
     let Ok(decoded) = encoding::decode(&unpacked) else {
@@ -91,7 +99,11 @@ fn of_kind(kind: Kind, bytes: &[u8], options: &Options) -> Result<Outline, Recor
     if kind == Kind::Text {
         return of_text(bytes, options);
     }
-    let columns = sheet::of(kind, bytes)?;
+    #[cfg(feature = "xlsx")]
+    if kind == Kind::Xlsx {
+        return of_table(workbook::read(bytes, options)?.text(), options);
+    }
+    let columns = sheet::of(kind, bytes, options)?;
     let (mut header, values) = columns.all();
     let roles = roles::assign(&mut header, options).ok();
     Ok(Outline::new(&header, roles.as_ref(), values, options))
@@ -109,6 +121,10 @@ fn of_text(bytes: &[u8], options: &Options) -> Result<Outline, RecordError> {
         let values = numbers(Rows::separated_by(b';', &text), &header);
         return Ok(Outline::new(&header, roles.as_ref(), values, options));
     }
+    of_table(decoded, options)
+}
+
+fn of_table(decoded: Decoded<'_>, options: &Options) -> Result<Outline, RecordError> {
     let text = blanks::as_tabs(&decoded.text);
     let (table, is_known) = match layout::find(&text, options) {
         Ok(table) => (table, true),

@@ -16,6 +16,8 @@ use super::{json, npz, Column, Options, Record};
 /// The columns of a file by name.
 pub(super) struct Columns {
     header: Header,
+    /// Whether `--names` gave the names.
+    is_given: bool,
     stored: Stored,
 }
 
@@ -26,9 +28,13 @@ enum Stored {
 }
 
 /// The columns of a file that is neither text nor compressed.
-pub(super) fn of(kind: Kind, bytes: &[u8]) -> Result<Columns, RecordError> {
+pub(super) fn of(kind: Kind, bytes: &[u8], options: &Options) -> Result<Columns, RecordError> {
     match kind {
         Kind::Npz => of_vectors(vectors(npz::variables(bytes))?),
+        Kind::Npy => Ok(Columns {
+            is_given: !options.names.is_empty(),
+            ..of_vectors(vectors(npz::lone(bytes, &options.names))?)?
+        }),
         #[cfg(feature = "mat")]
         Kind::Mat => of_vectors(mat::read(bytes)?),
         #[cfg(feature = "mat")]
@@ -38,6 +44,7 @@ pub(super) fn of(kind: Kind, bytes: &[u8]) -> Result<Columns, RecordError> {
             let file = File::open(bytes)?;
             Ok(Columns {
                 header: Header::of(file.names())?,
+                is_given: false,
                 stored: Stored::Parquet(file),
             })
         }
@@ -58,6 +65,7 @@ fn of_vectors(vectors: Vec<Vector>) -> Result<Columns, RecordError> {
         .unzip();
     Ok(Columns {
         header: Header::of(names)?,
+        is_given: false,
         stored: Stored::Values(values),
     })
 }
@@ -77,6 +85,7 @@ pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
     let (names, values): (Vec<_>, Vec<_>) = columns.into_iter().map(named).unzip();
     Ok(Columns {
         header: Header::of(names)?,
+        is_given: false,
         stored: Stored::Values(values),
     })
 }
@@ -98,8 +107,9 @@ impl Columns {
     }
 }
 
-/// Refuses options for the names of a text, which the columns of such a file have.
-fn without_lines(options: &Options) -> Result<(), RecordError> {
+/// Refuses options for the names of a text, which the columns of such a file have, unless `--names`
+/// gave them.
+fn without_lines(is_given: bool, options: &Options) -> Result<(), RecordError> {
     if let Some(line) = options.header_line {
         return Err(RecordError::new(format!(
             "--header-line {line}: the file has no lines; its columns have names already"
@@ -110,7 +120,7 @@ fn without_lines(options: &Options) -> Result<(), RecordError> {
             "--segment {number}: the file is not text and has no segments"
         )));
     }
-    if !options.names.is_empty() {
+    if !is_given && !options.names.is_empty() {
         return Err(RecordError::new(
             "--names: the file is not text; its columns have names already",
         ));
@@ -121,14 +131,7 @@ fn without_lines(options: &Options) -> Result<(), RecordError> {
 /// The record of a table of JSON.
 pub(super) fn of_json(text: &str, options: &Options) -> Result<Record, RecordError> {
     let table = json::read(text, &options.names)?;
-    let names = match table.is_given {
-        true => Vec::new(),
-        false => options.names.clone(),
-    };
-    without_lines(&Options {
-        names,
-        ..options.clone()
-    })?;
+    without_lines(table.is_given, options)?;
     let mut header = Header::of(table.names())?;
     let roles = roles::assign(&mut header, options)?;
     let rows = same_length(&header, &roles, &table.lengths())?;
@@ -142,11 +145,12 @@ pub(super) fn of_json(text: &str, options: &Options) -> Result<Record, RecordErr
 
 /// The record of a file's columns; only those that have a part are read.
 pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordError> {
-    without_lines(options)?;
     let Columns {
         mut header,
+        is_given,
         mut stored,
     } = file;
+    without_lines(is_given, options)?;
     let roles = roles::assign(&mut header, options)?;
     let mut columns = vec![Vec::new(); header.columns.len()];
     for index in roles.time.into_iter().chain(roles.read()) {

@@ -22,6 +22,8 @@ pub(super) struct Vector {
 }
 
 /// What a variable holds.
+// Only files of MATLAB's have cells and objects.
+#[cfg_attr(not(feature = "mat"), allow(dead_code))]
 #[derive(Debug, PartialEq)]
 pub(super) enum Value {
     /// Real numbers, column by column.

@@ -32,6 +32,7 @@ def identify(
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
     segment: Optional[int] = None,
+    sheet: Optional[str] = None,
     names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     max_terms: Optional[int] = None,
@@ -51,7 +52,7 @@ def identify(
     * arrays: ``identify(t, tau_i=…, tau_o=…)`` in torque mode, ``identify(t, x=…, f=…)`` in
       displacement mode; they are one-dimensional, have the same length and any numeric type;
       ``t`` is in seconds, or ``None`` with ``rate``;
-    * a record: a path (CSV, JSON, .mat v5 and v7.3, Parquet or .npz, each also in gzip), a frame of pandas or
+    * a record: a path (CSV, JSON, .xlsx, .mat v5 and v7.3, Parquet, .npz or .npy, each also in gzip), a frame of pandas or
       polars, a table of pyarrow, a mapping of names to arrays, or a :class:`bowden.Record`;
     * a list of such records of one rig, for one joint model; with three or more, the last one is
       held out as a whole.
@@ -79,6 +80,8 @@ def identify(
     segment
         Which segment of a CSV is read if its column names are repeated, from 1; default: all of
         them as one record if the time continues.
+    sheet
+        The sheet of an Excel workbook; default: the first one with a table.
     names
         Names of the columns of a text file without names, each with its unit if it has one
         (``["t", "x [mm]", "f"]``). A column with an empty name is not read.
@@ -122,6 +125,7 @@ def identify(
         rate=rate,
         header_line=header_line,
         segment=segment,
+        sheet=sheet,
         names=names,
         drop_bad=drop_bad,
         units=units,
@@ -158,6 +162,7 @@ def identify(
         "rate": rate,
         "header_line": header_line,
         "segment": segment,
+        "sheet": sheet,
         "names": names,
         "drop_bad": drop_bad or None,
         "max_terms": max_terms,

@@ -46,6 +46,7 @@ class Reading:
         rate: Optional[float],
         header_line: Optional[int],
         segment: Optional[int],
+        sheet: Optional[str],
         names: Optional[Sequence[str]],
         drop_bad: bool,
         units: Optional[Mapping[str, str]],
@@ -74,6 +75,7 @@ class Reading:
             "rate": None if rate is None else number("rate", rate, HERTZ),
             "header_line": header_line,
             "segment": segment,
+            "sheet": sheet,
             "names": list_of_names(names),
             "drop_bad": bool(drop_bad),
         }
@@ -170,12 +172,13 @@ def read(
     rate: Optional[float] = None,
     header_line: Optional[int] = None,
     segment: Optional[int] = None,
+    sheet: Optional[str] = None,
     names: Optional[Sequence[str]] = None,
     drop_bad: bool = False,
     units: Optional[Mapping[str, str]] = None,
     label: Optional[str] = None,
 ) -> _bowden.Record:
-    """Reads one record: a file (CSV, JSON, .mat v5 and v7.3, Parquet, .npz, each also in gzip) or a frame.
+    """Reads one record: a file (CSV, JSON, .xlsx, .mat v5 and v7.3, Parquet, .npz, .npy, each also in gzip) or a frame.
 
     The options are those of `bowden identify`; see :func:`identify`.
     """
@@ -190,6 +193,7 @@ def read(
         rate=rate,
         header_line=header_line,
         segment=segment,
+        sheet=sheet,
         names=names,
         drop_bad=drop_bad,
         units=units,

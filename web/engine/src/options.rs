@@ -29,6 +29,8 @@ pub struct Choices {
     pub header_line: Option<usize>,
     /// The segment to read.
     pub segment: Option<usize>,
+    /// The sheet of a workbook to read.
+    pub sheet: Option<String>,
     /// Column names of a text file without a header.
     pub names: Vec<String>,
     /// Whether to drop bad rows.
@@ -66,6 +68,7 @@ impl Choices {
             rate: self.rate,
             header_line: self.header_line,
             segment: self.segment,
+            sheet: self.sheet.clone(),
             names: self.names.clone(),
             drop_bad: self.drop_bad,
         })

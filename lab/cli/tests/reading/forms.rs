@@ -35,6 +35,7 @@ fn every_form_gives_the_same_answer_to_the_byte() {
         (foreign("vectors_7_3.mat").display().to_string(), ""),
         (foreign("snappy.parquet").display().to_string(), ""),
         (foreign("vectors.npz").display().to_string(), ""),
+        (foreign("vectors.xlsx").display().to_string(), ""),
         (folder.file("log.ndjson", ndjson()), ""),
         (
             folder.file(
@@ -154,11 +155,21 @@ fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_colum
         "trace_7_3.mat",
         "matrix.npz",
         "structured.npz",
+        "structured.npy",
+        "matrix.npy",
         "none.parquet",
         "gzip.parquet",
         "lz4.parquet",
     ] {
-        let record = read(&foreign(name), Options::default());
+        let names = match name {
+            "matrix.npy" => NAMES.map(str::to_owned).to_vec(),
+            _ => Vec::new(),
+        };
+        let options = Options {
+            names,
+            ..Options::default()
+        };
+        let record = read(&foreign(name), options);
         assert_eq!(record.time, column(0), "{name}");
         assert_eq!(record.input.values, column(1), "{name}");
         assert_eq!(record.output.values, column(2), "{name}");

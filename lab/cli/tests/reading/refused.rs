@@ -16,7 +16,11 @@ fn a_form_that_is_not_read_is_named_with_what_to_do_instead() {
     let folder = Folder::new();
     let text = csv();
     for (name, magic, says) in [
-        ("r.xlsx", b"PK\x03\x04".as_slice(), "Excel workbook"),
+        (
+            "r.zip",
+            b"PK\x03\x04".as_slice(),
+            "without an Excel workbook",
+        ),
         (
             "r.xls",
             b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
@@ -60,6 +64,8 @@ fn a_damaged_file_is_refused() {
         "vectors_7_3.mat",
         "structure_7_3.mat",
         "snappy.parquet",
+        "vectors.xlsx",
+        "structured.npy",
     ] {
         let bytes = std::fs::read(foreign(name)).unwrap();
         let path = folder.file(name, &bytes[..bytes.len() / 2]);
@@ -86,6 +92,8 @@ fn no_damage_to_a_foreign_file_does_more_than_a_refusal() {
         "trace_7_3.mat",
         "gzip.parquet",
         "null.parquet",
+        "tiny.xlsx",
+        "structured.npy",
     ] {
         let whole = std::fs::read(foreign(name)).unwrap();
         for _ in 0..200 {

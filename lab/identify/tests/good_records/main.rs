@@ -13,6 +13,7 @@ mod shared;
 mod stamps;
 mod times;
 mod units;
+mod workbook;
 
 use bowden_lab::record::{of_columns, parse, read, Column, Mode, Options, Record};
 use fine::{csv, rows, with_line};

@@ -1,7 +1,7 @@
 //! NumPy's archives of arrays.
 
 use super::{accepted, csv, rows};
-use bowden_lab::record::{parse, Options, Record};
+use bowden_lab::record::{parse, Mode, Options, Record};
 use flate2::write::DeflateEncoder;
 use flate2::{Compression, Crc};
 use std::io::Write as _;
@@ -21,7 +21,7 @@ fn npy(descr: &str, shape: &str, by_column: bool, data: &[u8]) -> Vec<u8> {
 }
 
 /// A zip archive of these files, compressed or not.
-fn zip(files: &[(&str, Vec<u8>)], is_packed: bool) -> Vec<u8> {
+pub fn zip(files: &[(&str, Vec<u8>)], is_packed: bool) -> Vec<u8> {
     let (mut all, mut directory) = (Vec::new(), Vec::new());
     for (name, file) in files {
         let mut check = Crc::new();
@@ -145,6 +145,46 @@ fn a_matrix_with_names_and_a_structured_array_are_columns() {
     let descr = "[('t', '<f8'), ('x', '<f8'), ('f', '<f8')]";
     let record = npy(descr, "(400,)", false, &doubles(&by_row));
     same(&zip(&[("log.npy", record)], true));
+}
+
+#[test]
+fn a_lone_array_has_columns_by_names_or_by_fields() {
+    let by_row: Vec<f64> = (0..400)
+        .flat_map(|i| [0, 1, 2].map(|k| column(k)[i]))
+        .collect();
+    let matrix = npy("'<f8'", "(400, 3)", false, &doubles(&by_row));
+    let descr = "[('t', '<f8'), ('x', '<f8'), ('f', '<f8')]";
+    let structured = npy(descr, "(400,)", false, &doubles(&by_row));
+    same(&structured);
+    let read = |bytes: &[u8], options: &Options| parse(bytes, "r.npy", options);
+    let names = |list: &str| Options {
+        names: list.split(',').map(str::to_owned).collect(),
+        ..Options::default()
+    };
+    let record = read(&matrix, &names("t,x [mm],f")).unwrap();
+    assert_eq!(record.input.values, column(1));
+    assert_eq!(record.input.unit.as_deref(), Some("mm"));
+    let by_number = Options {
+        time: Some("data(:,1)".to_owned()),
+        input: Some("data(:,2)".to_owned()),
+        output: Some("data(:,3)".to_owned()),
+        mode: Some(Mode::Displacement),
+        ..Options::default()
+    };
+    assert_eq!(read(&matrix, &by_number).unwrap().output.values, column(2));
+    let plain = |shape: &str| npy("'<f8'", shape, false, &doubles(&by_row));
+    for (bytes, options, says) in [
+        (plain("(1200,)"), Options::default(), "is one column of 1200 numbers; save a two-dimensional array, or name the columns with `np.savez`"),
+        (plain("(20, 20, 3)"), Options::default(), "is an array with 3 dimensions; it must have two, with one column per quantity"),
+        (plain("()"), Options::default(), "is an array with 0 dimensions; it must have two, with one column per quantity"),
+        (npy("'|O'", "(400, 3)", false, &[]), Options::default(), "is an array of other values than real numbers"),
+        (matrix.clone(), names("t,x"), "the array has 3 columns, but --names lists 2"),
+        (structured, names("t,x,f"), "--names: the fields of the array have names already"),
+        (matrix[..2000].to_vec(), Options::default(), "the file is damaged: an array ends early"),
+    ] {
+        let line = read(&bytes, &options).unwrap_err().to_string();
+        assert_eq!(line, format!("r.npy: {says}"));
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the records of this folder by SciPy, PyArrow, h5py and hdf5storage: not our writers.
+"""Writes the records of this folder by SciPy, PyArrow, h5py, hdf5storage and openpyxl: not our writers.
 
-    pip install numpy scipy pyarrow h5py hdf5storage && python3 make.py
+    pip install numpy scipy pyarrow h5py hdf5storage openpyxl && python3 make.py
 
 The record is that of `../record.rs`, made of sums, products and rounding alone, so that it is
 the same to the bit wherever it is computed.
@@ -13,6 +13,7 @@ import pathlib
 import h5py
 import hdf5storage
 import numpy as np
+import openpyxl
 import pyarrow as pa
 import pyarrow.parquet as pq
 from scipy.io import savemat
@@ -39,6 +40,17 @@ def record():
         f = rounded(2 * x + 3 * (x - play) + 0.25 * load + noise)
         rows.append((i / 256, x, f, load))
     return np.array(rows).T
+
+
+def workbook(name, rows):
+    """A workbook whose first sheet has words alone."""
+    book = openpyxl.Workbook()
+    cover, sheet = book.active, book.create_sheet("Run")
+    cover.title = "Rig"
+    cover["A1"], cover["B1"] = "Operator", "Ann"
+    for row in rows:
+        sheet.append(row)
+    book.save(FOLDER / name)
 
 
 def class_of(data, name, **others):
@@ -89,6 +101,7 @@ pq.write_table(pa.table([t, x, f, load], names), FOLDER / "snappy.parquet", row_
 np.savez_compressed(
     FOLDER / "vectors.npz", t=t, x_mm=x, f_N=f, load_N=load, rate=256.0, who="rig 3"
 )
+workbook("vectors.xlsx", [names, *zip(t.tolist(), x.tolist(), f.tolist(), load.tolist())])
 # The same in version 7.3: chunks, shuffled and compressed, as MATLAB writes long vectors.
 file = Hdf5("vectors_7_3.mat")
 for name, values in zip(names, [t, x, f, load]):
@@ -111,6 +124,11 @@ savemat(FOLDER / "nameless.mat", {"data": matrix.T}, do_compression=True)
 np.savez(FOLDER / "matrix.npz", data=matrix.T, names=np.array(names))
 log = np.rec.fromarrays([t, x, f, load], dtype=[(name, "<f8") for name in names])
 np.savez_compressed(FOLDER / "structured.npz", log=log)
+np.save(FOLDER / "structured.npy", log)
+np.save(FOLDER / "matrix.npy", matrix)
+# A seed of the fuzz target.
+workbook("tiny.xlsx", [names[:3], *zip(t[:9].tolist(), x[95:104].tolist(), f[:9].tolist())])
+np.save(FOLDER / "tiny.npy", np.array([t[:9], x[95:104], f[:9]]).T)
 # As trace exports write it: an axis and signals with names, units and data.
 signals = np.zeros(3, dtype=[("Name", object), ("Unit", object), ("Data", object)])
 for own, signal in zip(signals, [("x", "mm", x), ("f", "N", f), ("load", "N", load)]):

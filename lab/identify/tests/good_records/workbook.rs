@@ -1,0 +1,264 @@
+//! Excel workbooks: each kind of cell, of sheet and of damage.
+
+use super::npz::zip;
+use super::{accepted, csv, rows};
+use bowden_lab::record::{excerpt, outline, parse, Options, Record};
+
+/// Cell formats by index: general, a date with a time, a time of day, a duration.
+const STYLES: &str = r#"<styleSheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main">
+<numFmts count="2"><numFmt numFmtId="164" formatCode="hh:mm:ss.000"/><numFmt numFmtId="165" formatCode="[h]:mm:ss"/></numFmts>
+<cellXfs count="4"><xf numFmtId="0"/><xf numFmtId="22"/><xf numFmtId="164"/><xf numFmtId="165"/></cellXfs></styleSheet>"#;
+
+/// A cell: `=2:1.5` is the number 1.5 with the format 2, `!` an error, anything else a text or a
+/// number.
+fn cell(row: usize, column: usize, text: &str) -> String {
+    let place = format!("{}{}", char::from(b'A' + column as u8), row + 1);
+    if text.is_empty() {
+        return String::new();
+    }
+    if let Some((format, value)) = text.strip_prefix('=').and_then(|own| own.split_once(':')) {
+        return format!("<c r=\"{place}\" s=\"{format}\"><v>{value}</v></c>");
+    }
+    if let Some(error) = text.strip_prefix('!') {
+        return format!("<c r=\"{place}\" t=\"e\"><v>{error}</v></c>");
+    }
+    match text.parse::<f64>() {
+        Ok(_) => format!("<c r=\"{place}\"><v>{text}</v></c>"),
+        Err(_) => format!("<c r=\"{place}\" t=\"inlineStr\"><is><t>{text}</t></is></c>"),
+    }
+}
+
+/// A workbook of these sheets, each a text with commas.
+fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
+    let main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
+    let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+    let package = "http://schemas.openxmlformats.org/package/2006/relationships";
+    let (mut list, mut relations) = (String::new(), String::new());
+    let mut files = vec![("[Content_Types].xml".to_owned(), "<Types/>".to_owned())];
+    for (index, (name, text)) in sheets.iter().enumerate() {
+        let number = index + 1;
+        list += &format!("<sheet name=\"{name}\" sheetId=\"{number}\" r:id=\"rId{number}\"/>");
+        relations += &format!("<Relationship Id=\"rId{number}\" Type=\"{office}/worksheet\" Target=\"worksheets/sheet{number}.xml\"/>");
+        let row = |(row, line): (usize, &str)| {
+            let cells = line.split(',').enumerate();
+            let cells: String = cells.map(|(column, own)| cell(row, column, own)).collect();
+            format!("<row r=\"{}\">{cells}</row>", row + 1)
+        };
+        let data: String = text.lines().enumerate().map(row).collect();
+        let sheet =
+            format!("<worksheet xmlns=\"{main}\"><sheetData>{data}</sheetData></worksheet>");
+        files.push((format!("xl/worksheets/sheet{number}.xml"), sheet));
+    }
+    let book = format!(
+        "<workbook xmlns=\"{main}\" xmlns:r=\"{office}\"><sheets>{list}</sheets></workbook>"
+    );
+    files.push(("xl/workbook.xml".to_owned(), book));
+    let relations = format!("<Relationships xmlns=\"{package}\">{relations}</Relationships>");
+    files.push(("xl/_rels/workbook.xml.rels".to_owned(), relations));
+    files.push(("xl/styles.xml".to_owned(), STYLES.to_owned()));
+    let files: Vec<(&str, Vec<u8>)> = files
+        .iter()
+        .map(|(name, text)| (name.as_str(), text.clone().into_bytes()))
+        .collect();
+    zip(&files, true)
+}
+
+fn read(sheets: &[(&str, &str)], options: &Options) -> Result<Record, String> {
+    parse(&workbook(sheets), "r.xlsx", options).map_err(|error| error.to_string())
+}
+
+/// The one sheet with the plain record under this head, each row changed.
+fn sheet(head: &str, row: impl Fn(usize, &str) -> String) -> String {
+    let rows: Vec<String> = rows()
+        .iter()
+        .enumerate()
+        .map(|(i, own)| row(i, own))
+        .collect();
+    csv(head, &rows)
+}
+
+/// A row with another first cell.
+fn stamped(row: &str, stamp: &str) -> String {
+    format!("{stamp}{}", &row[row.find(',').unwrap()..])
+}
+
+#[test]
+fn a_sheet_is_read_as_its_text_would_be() {
+    let plain = accepted(csv("t,x,f", &rows()));
+    let as_it_is = |_: usize, row: &str| row.to_owned();
+    let day = 46_082.0;
+    let stamp = |format: usize, days: f64| format!("={format}:{days}");
+    let seconds = |i: usize| i as f64 * 0.01;
+    for (sheet, unit, note) in [
+        (sheet("t,x,f", as_it_is), None, ""),
+        (sheet("t,x [mm],f [N]", as_it_is), Some("mm"), ""),
+        (
+            sheet("Rig 7,,\n,,\nt,x,f\ns,mm,N", as_it_is),
+            Some("mm"),
+            "units from line 4",
+        ),
+        (
+            sheet("# a comment,,,a note\nt,x,f", as_it_is),
+            None,
+            "line 1 above the names",
+        ),
+        // Dates, times of day and durations.
+        (
+            sheet("t,x,f", |i, row| {
+                stamped(row, &stamp(1, day + 0.5 + seconds(i) / 86_400.0))
+            }),
+            None,
+            "",
+        ),
+        (
+            sheet("t,x,f", |i, row| {
+                stamped(row, &stamp(2, 0.5 + seconds(i) / 86_400.0))
+            }),
+            None,
+            "",
+        ),
+        (
+            sheet("t,x,f", |i, row| {
+                stamped(row, &stamp(3, 2.0 + seconds(i) / 86_400.0))
+            }),
+            None,
+            "",
+        ),
+        // Numbers that are texts, with decimal commas: `,` separates the cells of this test.
+        (sheet("t,x,f,who", |_, row| format!("{row},Ü")), None, ""),
+    ] {
+        let record = read(&[("Sheet1", &sheet)], &Options::default());
+        let record = record.unwrap_or_else(|error| panic!("{error}\n{}", &sheet[..200]));
+        assert_eq!(record.input.values, plain.input.values);
+        assert_eq!(record.output.values, plain.output.values);
+        // A double of days resolves a microsecond, and stamps are read to that.
+        let apart = record.time.iter().zip(&plain.time);
+        assert!(
+            apart.clone().all(|(a, b)| (a - b).abs() < 2e-6),
+            "{:?}",
+            record.time
+        );
+        assert_eq!(record.input.unit.as_deref(), unit);
+        assert!(record.notes.concat().contains(note), "{:?}", record.notes);
+    }
+}
+
+#[test]
+fn an_error_of_a_sheet_counts_as_an_empty_cell() {
+    let broken = |cell: &str| {
+        sheet("t,x,f", |i, row| match i {
+            7 => format!("0.07,{cell},1"),
+            _ => row.to_owned(),
+        })
+    };
+    let lines = ["", "!#DIV/0!"].map(|cell| {
+        let sheets = broken(cell);
+        let refusal = read(&[("Sheet1", &sheets)], &Options::default()).unwrap_err();
+        let options = Options {
+            drop_bad: true,
+            ..Options::default()
+        };
+        assert_eq!(read(&[("Sheet1", &sheets)], &options).unwrap().dropped, 1);
+        refusal
+    });
+    assert_eq!(lines[0], lines[1]);
+    assert_eq!(
+        lines[0],
+        "r.xlsx:9: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows"
+    );
+}
+
+#[test]
+fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
+    let own = csv("t,x,f", &rows());
+    let other = csv("a,b,c", &rows());
+    let words = "Operator,Ann\nRig,7\n";
+    let read = |sheets: &[(&str, &str)], sheet: Option<&str>| {
+        let sheet = sheet.map(str::to_owned);
+        let options = Options {
+            sheet,
+            ..Options::default()
+        };
+        read(sheets, &options).map(|record| record.notes)
+    };
+    let all = [
+        ("Notes", words),
+        ("Other", &*other),
+        ("Run 1", &*own),
+        ("Run 2", &*own),
+    ];
+    assert_eq!(
+        read(&all, None).unwrap(),
+        ["sheet `Run 1` read; `--sheet` reads another one with a table: `Other`, `Run 2`"]
+    );
+    assert!(read(&all, Some("Run 2")).unwrap().is_empty());
+    assert!(read(&[all[0], all[2]], None).unwrap().is_empty());
+    let refusal = |sheets: &[(&str, &str)], sheet| read(sheets, sheet).unwrap_err();
+    assert!(refusal(&all, Some("Other")).starts_with("r.xlsx:1: column `x`"));
+    assert_eq!(
+        refusal(&all, Some("run 1")),
+        "r.xlsx: --sheet run 1: the workbook has no such sheet (nearest: `Run 1`, `Run 2`)"
+    );
+    assert_eq!(
+        refusal(&[("Notes", words)], None),
+        "r.xlsx: no sheet has a table: two or more columns of numbers below their names"
+    );
+    let text = parse(
+        own.as_bytes(),
+        "r.csv",
+        &Options {
+            sheet: Some("A".into()),
+            ..Options::default()
+        },
+    );
+    assert_eq!(
+        text.unwrap_err().to_string(),
+        "r.csv: --sheet A: the file is not an Excel workbook"
+    );
+}
+
+#[test]
+fn damage_to_a_workbook_is_refused() {
+    let whole = workbook(&[("Sheet1", &csv("t,x,f", &rows()))]);
+    let refusal = |bytes: &[u8]| {
+        parse(bytes, "r.xlsx", &Options::default())
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        refusal(&whole[..whole.len() / 2]),
+        "r.xlsx: the file is damaged: the zip archive is truncated"
+    );
+    let document = zip(&[("[Content_Types].xml", b"<Types/>".to_vec())], false);
+    let line = refusal(&document);
+    assert!(
+        line.starts_with("r.xlsx: the workbook is damaged: ") && !line.contains('\n'),
+        "{line}"
+    );
+    let wide = format!("<worksheet><sheetData><row r=\"3\"><c r=\"XFD3\"><v>1</v></c></row></sheetData></worksheet>");
+    let mut files = vec![("xl/worksheets/sheet1.xml", wide.into_bytes())];
+    files.push(("xl/workbook.xml", b"<workbook xmlns:r=\"r\"><sheets><sheet name=\"S\" sheetId=\"1\" r:id=\"rId1\"/></sheets></workbook>".to_vec()));
+    files.push(("xl/_rels/workbook.xml.rels", b"<Relationships><Relationship Id=\"rId1\" Type=\"http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>".to_vec()));
+    assert_eq!(
+        refusal(&zip(&files, false)),
+        "r.xlsx: row 3 of sheet `S` has a cell in column 16384; a sheet may have at most 256 columns"
+    );
+    // Any byte of any value: a refusal or a record, and no panic.
+    for at in (0..whole.len()).step_by(97) {
+        for byte in [0, 1, 0x7f, 0xff] {
+            let mut spoilt = whole.clone();
+            spoilt[at] = byte;
+            let _ = parse(&spoilt, "r.xlsx", &Options::default());
+        }
+    }
+}
+
+#[test]
+fn a_view_shows_the_columns_and_lines_of_a_sheet() {
+    let bytes = workbook(&[("Sheet1", &csv("motor,joint,note", &rows()))]);
+    let found = outline(&bytes, &Options::default()).unwrap();
+    assert_eq!((found.line, found.columns.len()), (1, 3));
+    assert_eq!(found.columns[1].values.len(), 400);
+    let lines = excerpt(&bytes, 1, 1, &Options::default());
+    assert_eq!(lines[0].cells, ["motor", "joint", "note"]);
+}
