@@ -31,7 +31,7 @@ fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErro
         return None;
     }
     let own = |piece: &Piece, rows: &[usize]| {
-        let rows = rows_of(piece, rows);
+        let rows = piece.rows_of(rows);
         (!rows.is_empty()).then(|| of(rows))
     };
     let all = data.pieces.iter().map(|piece| FileErrors {
@@ -41,13 +41,6 @@ fn by_file(data: &Prepared, of: impl Fn(&[usize]) -> f64) -> Option<Vec<FileErro
         held_out: own(piece, &data.split.held_out),
     });
     Some(all.collect())
-}
-
-/// The rows of a segment that lie in a file.
-pub(super) fn rows_of<'a>(piece: &Piece, rows: &'a [usize]) -> &'a [usize] {
-    let begin = rows.partition_point(|&row| row < piece.rows.start);
-    let end = rows.partition_point(|&row| row < piece.rows.end);
-    &rows[begin..end]
 }
 
 fn rms(signal: &[f64], rows: &[usize], about: f64) -> f64 {

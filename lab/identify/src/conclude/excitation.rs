@@ -1,6 +1,5 @@
 //! The motion that would identify a parameter that the record does not identify.
 
-use super::by_file::rows_of;
 use crate::fit::Solution;
 use crate::model::effects::shown_by;
 use crate::model::structure::{Role, TermId};
@@ -11,7 +10,7 @@ use crate::score::ranges::BEYOND;
 /// Number of reversals of the input on the fit segment, by more than a twentieth of its range.
 fn reversals(data: &Prepared) -> usize {
     let back = BEYOND * 2.0 * data.input.reach;
-    let of = |piece: &Piece| match rows_of(piece, &data.split.fit) {
+    let of = |piece: &Piece| match piece.rows_of(&data.split.fit) {
         [first, .., last] => turns(
             &data.input,
             &(first * data.stride..last * data.stride + 1),

@@ -1,7 +1,7 @@
 //! Files that no single model can describe, because in one of them the output is a multiple of that
 //! in the others: another sign, unit or calibration.
 
-use super::by_file::{nrmse_by_file, rows_of};
+use super::by_file::nrmse_by_file;
 use super::final_fit::FinalFit;
 use super::finding::Finding;
 use crate::algebra::line;
@@ -144,7 +144,7 @@ fn files_apart(data: &Prepared, own: &Solution) -> Vec<FileApart> {
 
 /// How the output of a file relates to the prediction with the gains of another file.
 fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
-    let rows = rows_of(&data.pieces[file], &data.split.fit);
+    let rows = data.pieces[file].rows_of(&data.split.fit);
     let shared = own.structure.base()..own.gains.len();
     let with_gains_of_the_other = |row: usize| -> f64 {
         let cable = (0..3).map(|j| own.gains[3 * than + j] * own.columns[3 * file + j][row]);

@@ -173,6 +173,15 @@ pub struct Piece {
     pub shuffled: bool,
 }
 
+impl Piece {
+    /// Its rows among those of a segment, which are in ascending order.
+    pub(crate) fn rows_of<'a>(&self, segment: &'a [usize]) -> &'a [usize] {
+        let begin = segment.partition_point(|&row| row < self.rows.start);
+        let end = segment.partition_point(|&row| row < self.rows.end);
+        &segment[begin..end]
+    }
+}
+
 /// The segments: fit, selection, held-out. They are in this order, except for a record that is held
 /// out as a whole.
 #[derive(Debug, Clone, Default)]
