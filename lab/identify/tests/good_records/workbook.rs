@@ -12,7 +12,10 @@ const STYLES: &str = r#"<styleSheet xmlns="http://schemas.openxmlformats.org/spr
 /// A cell: `=2:1.5` is the number 1.5 with the format 2, `!` an error, anything else a text or a
 /// number.
 fn cell(row: usize, column: usize, text: &str) -> String {
-    let place = format!("{}{}", char::from(b'A' + column as u8), row + 1);
+    let letter = |index: usize| char::from(b'A' + index as u8);
+    let first = (column / 26).checked_sub(1).map(letter);
+    let first = first.map_or_else(String::new, String::from);
+    let place = format!("{first}{}{}", letter(column % 26), row + 1);
     if text.is_empty() {
         return String::new();
     }
@@ -124,7 +127,7 @@ fn a_sheet_is_read_as_its_text_would_be() {
             None,
             "",
         ),
-        // Numbers that are texts, with decimal commas: `,` separates the cells of this test.
+        // A column of text next to the numbers.
         (sheet("t,x,f,who", |_, row| format!("{row},Ü")), None, ""),
     ] {
         let record = read(&[("Sheet1", &sheet)], &Options::default());
@@ -235,13 +238,10 @@ fn damage_to_a_workbook_is_refused() {
         line.starts_with("r.xlsx: the workbook is damaged: ") && !line.contains('\n'),
         "{line}"
     );
-    let wide = format!("<worksheet><sheetData><row r=\"3\"><c r=\"XFD3\"><v>1</v></c></row></sheetData></worksheet>");
-    let mut files = vec![("xl/worksheets/sheet1.xml", wide.into_bytes())];
-    files.push(("xl/workbook.xml", b"<workbook xmlns:r=\"r\"><sheets><sheet name=\"S\" sheetId=\"1\" r:id=\"rId1\"/></sheets></workbook>".to_vec()));
-    files.push(("xl/_rels/workbook.xml.rels", b"<Relationships><Relationship Id=\"rId1\" Type=\"http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>".to_vec()));
+    let wide = format!("t,x,f\n\n{}1", ",".repeat(256));
     assert_eq!(
-        refusal(&zip(&files, false)),
-        "r.xlsx: row 3 of sheet `S` has a cell in column 16384; a sheet may have at most 256 columns"
+        refusal(&workbook(&[("S", &wide)])),
+        "r.xlsx: row 3 of sheet `S` has a cell in column 257; a sheet may have at most 256 columns"
     );
     // Any byte of any value: a refusal or a record, and no panic.
     for at in (0..whole.len()).step_by(97) {
