@@ -110,7 +110,13 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     }
     if let Some(name) = first_of_zip(bytes) {
         let is_office = |part: &&[u8]| name.starts_with(part);
-        let parts: [&[u8]; 4] = [b"[Content_Types].xml", b"_rels/", b"docProps/", b"xl/"];
+        let parts: [&[u8]; 5] = [
+            b"[Content_Types].xml",
+            b"_rels/",
+            b"docProps/",
+            b"customXml/",
+            b"xl/",
+        ];
         if name.ends_with(b".npy") {
             return Ok(Kind::Npz);
         }

@@ -88,6 +88,10 @@ fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
             )));
         }
         let text = text(&mut book, name)?;
+        if text.trim().is_empty() {
+            let name = shown(name, NAME_LENGTH);
+            return Err(refused(format!("--sheet {name}: the sheet is empty")));
+        }
         return Ok(Sheet { text, note: None });
     }
     // With the wanted columns, or else with any.
@@ -160,7 +164,7 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
             return Err(refused(too_large()));
         }
     }
-    let width = counts.iter().copied().max().unwrap_or(0);
+    let width = counts.iter().copied().max().unwrap_or(0).max(1);
     let mut padded = String::with_capacity(lines.len());
     for (line, count) in lines.split('\n').zip(counts) {
         padded.push_str(line);

@@ -206,6 +206,10 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
         refusal(&[("Notes", words)], None),
         "r.xlsx: no sheet has a table: two or more columns of numbers below their names"
     );
+    assert_eq!(
+        refusal(&[("Run", &own), ("Empty", "")], Some("Empty")),
+        "r.xlsx: --sheet Empty: the sheet is empty"
+    );
     let text = parse(
         own.as_bytes(),
         "r.csv",
