@@ -9,7 +9,7 @@
 //! friction of the pulley is compensated with velocities from an encoder through `Rates`.
 
 use bowden::control::{Compensator, CompensatorInput, CompensatorState, Status};
-use bowden::effect::{Effect, Motion};
+use bowden::effect::{Motion, Viscous};
 use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, ModelState, Sample, Source, Term};
 use bowden::signal::{Rates, RatesState};
@@ -26,7 +26,7 @@ fn identified<T: Real>() -> Result<Model<T, 1>, Error> {
         shape,
     )?;
     let friction = Term {
-        effect: Effect::Viscous,
+        effect: Viscous.into(),
         source: Source::Channel(0),
         origin: T::zero(),
         gain: T::from_f64(-0.264),

@@ -25,7 +25,7 @@ mod fixed;
 mod serial;
 mod state;
 
-use crate::effect::{saturate, Effect, Inputs, Motion, Stage};
+use crate::effect::{saturate, Effect, Inputs, Motion, Offset, Stage};
 use crate::error::finite;
 use crate::transmission::Transmission;
 use crate::{Error, Real};
@@ -56,10 +56,10 @@ pub enum Source {
 /// addition to its source (`degradation`).
 ///
 /// ```
-/// use bowden::effect::{Effect, Motion};
+/// use bowden::effect::{Motion, StiffnessProgressive};
 /// use bowden::model::{Model, ModelState, Sample, Source, Term};
 ///
-/// let effect = Effect::StiffnessProgressive; // x·|x|
+/// let effect = StiffnessProgressive.into(); // x·|x|
 /// let spring = Term { effect, source: Source::Input, origin: 5.0, gain: 2.0 };
 /// let model = Model::<f64, 1>::try_new(None, &[spring])?;
 /// let input = Motion { position: 2.0, velocity: 0.0, acceleration: 0.0 };
@@ -131,10 +131,10 @@ pub struct Sample<'a, T> {
 /// ```
 ///
 /// ```
-/// use bowden::effect::{Effect, Motion};
+/// use bowden::effect::{Motion, Viscous};
 /// use bowden::model::{Model, ModelState, Sample, Source, Term};
 ///
-/// let (effect, source) = (Effect::Viscous, Source::Input);
+/// let (effect, source) = (Viscous.into(), Source::Input);
 /// let viscous = Term { effect, source, origin: 0.0, gain: 3.0_f32 };
 /// let model = Model::<f32, 4>::try_new(None, &[viscous])?;
 /// let mut state = ModelState::new();
@@ -167,7 +167,7 @@ struct Stages {
 
 impl Stages {
     fn of<T: Real>(terms: &[Term<T>]) -> Self {
-        let has = |stage| terms.iter().any(|term| term.effect.stage() == stage);
+        let has = |stage| terms.iter().any(|term| term.effect.info().stage == stage);
         Self {
             input: has(Stage::Input),
             output: has(Stage::Output),
@@ -178,7 +178,7 @@ impl Stages {
 /// Filler of the free slots: a term that adds nothing.
 fn padding<T: Real>() -> Term<T> {
     Term {
-        effect: Effect::Offset,
+        effect: Offset.into(),
         source: Source::Input,
         origin: T::zero(),
         gain: T::zero(),
@@ -349,11 +349,11 @@ impl<T: Real, const N: usize> Model<T, N> {
     /// which no call is made.
     ///
     /// ```
-    /// use bowden::effect::{Effect, Motion};
+    /// use bowden::effect::{Inertia, Motion, Viscous};
     /// use bowden::model::{Model, ModelState, Sample, Source, Term};
     ///
     /// let term = |effect, gain| Term { effect, source: Source::Input, origin: 0.0, gain };
-    /// let terms = [term(Effect::Viscous, 3.0), term(Effect::Inertia, 0.5)];
+    /// let terms = [term(Viscous.into(), 3.0), term(Inertia.into(), 0.5)];
     /// let model = Model::<f64, 2>::try_new(None, &terms)?;
     ///
     /// let input = Motion { position: 0.0, velocity: 2.0, acceleration: 4.0 };
@@ -381,7 +381,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         loop {
             let places = self.terms().iter().zip(&mut state.effects).enumerate();
             for (index, (term, memory)) in places {
-                if term.effect.stage() != stage {
+                if term.effect.info().stage != stage {
                     continue;
                 }
                 let Some(motion) = seen(term.source, term.origin, at) else {

@@ -2,7 +2,7 @@
 
 use crate::numbers::Numbers;
 use crate::properties::effect::{a_late_output_is_finite, a_regressor_is_finite};
-use bowden::effect::{Effect, EffectState, Inputs};
+use bowden::effect::{Delay, Effect, EffectState, Inputs};
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
 
@@ -85,7 +85,7 @@ fn alone(from: &mut Numbers) -> Option<()> {
         );
         // A model takes finite gains only.
         let gain = at.load;
-        if effect == Effect::Delay && gain.is_finite() {
+        if effect == Effect::from(Delay) && gain.is_finite() {
             assert!(a_late_output_is_finite(gain, &mut state, &at));
         }
     }

@@ -79,13 +79,13 @@ pub struct CompensatorOutput<T> {
 ///
 /// ```
 /// use bowden::control::{BenchRange, Compensator};
-/// use bowden::effect::{Effect, Motion};
+/// use bowden::effect::{DragCubic, Motion};
 /// use bowden::hysteresis::BoucWen;
 /// use bowden::model::{Model, Source, Term};
 /// use bowden::transmission::Transmission;
 /// # fn main() -> Result<(), bowden::Error> {
 /// let cable = Transmission::torque(0.9978, 7.004, 0.05174, BoucWen::try_new(0.09582, 0.6, 3.871)?)?;
-/// let (effect, source) = (Effect::DragCubic, Source::Channel(0));
+/// let (effect, source) = (DragCubic.into(), Source::Channel(0));
 /// let model = Model::<f32, 1>::try_new(Some(cable), &[Term { effect, source, origin: 0.0, gain: -0.1 }])?;
 /// let high = Motion { position: 1.5, velocity: 3.0, acceleration: 20.0 };
 /// let low = Motion { position: -1.5, velocity: -3.0, acceleration: -20.0 };
@@ -145,14 +145,14 @@ impl<T: Real> BenchRange<T> {
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
-/// use bowden::effect::{Effect, Motion};
+/// use bowden::effect::{Motion, Viscous};
 /// use bowden::hysteresis::BoucWen;
 /// use bowden::model::{Model, Source, Term};
 /// use bowden::transmission::Transmission;
 ///
 /// let shape = BoucWen::try_new(0.09582, 0.6, 3.871)?;
 /// let cable = Transmission::torque(0.9978, 7.004, 0.05174, shape)?; // [N·m]
-/// let (effect, source) = (Effect::Viscous, Source::Channel(0));
+/// let (effect, source) = (Viscous.into(), Source::Channel(0));
 /// let friction = Term { effect, source, origin: 0.0, gain: -0.5_f64 };
 /// let model = Model::<f64, 1>::try_new(Some(cable), &[friction])?;
 ///

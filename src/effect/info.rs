@@ -1,7 +1,7 @@
 //! Properties of an effect: name, unit, symmetries, inputs.
 
 use super::bounds::saturate;
-use super::{EffectState, Family, Inputs};
+use super::{EffectState, Inputs};
 use crate::error::finite;
 use crate::{Error, Real};
 
@@ -10,9 +10,9 @@ use crate::{Error, Real};
 /// The coefficient of an effect has the unit of the output divided by this unit.
 ///
 /// ```
-/// use bowden::effect::{Dimension, Effect};
+/// use bowden::effect::{Dimension, Effect, Viscous};
 /// // The regressor of viscous friction is a velocity: channel unit per second.
-/// assert_eq!(Effect::<f64>::Viscous.dimension(), Dimension { channel: 1, time: -1, ..Dimension::ONE });
+/// assert_eq!(Effect::<f64>::from(Viscous).info().dimension, Dimension { channel: 1, time: -1, ..Dimension::ONE });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -84,8 +84,8 @@ pub enum Parity {
 /// The symmetries that distinguish effects.
 ///
 /// ```
-/// use bowden::effect::{Effect, Parity};
-/// let parity = Effect::<f64>::AsymmetryViscous.parity();
+/// use bowden::effect::{AsymmetryViscous, Effect, Parity};
+/// let parity = Effect::<f64>::from(AsymmetryViscous).info().parity;
 /// assert_eq!(parity.mirror, Parity::Even); // |v|: breaks the mirror symmetry of friction
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -98,12 +98,6 @@ pub struct Symmetry {
     /// Under v → −v alone, at one instant: x, a, load and eta stay the same. An effect with memory
     /// returns [`Parity::Neither`]: its path has no such mirror image.
     pub reversal: Parity,
-}
-
-impl Symmetry {
-    pub(super) const fn new(mirror: Parity, reversal: Parity) -> Self {
-        Self { mirror, reversal }
-    }
 }
 
 /// One quantity of [`Inputs`].
@@ -171,8 +165,8 @@ pub struct ShapeInfo {
 pub struct Info {
     /// The effect's own name.
     pub name: &'static str,
-    /// The family that the effect belongs to.
-    pub family: Family,
+    /// The family that the effect belongs to, such as "drag".
+    pub family: &'static str,
     /// The regressor as a formula.
     pub formula: &'static str,
     /// The regressor's unit.
@@ -183,10 +177,14 @@ pub struct Info {
     pub reads: &'static [Quantity],
     /// Whether the effect has a memory of earlier samples.
     pub memory: bool,
+    /// The shape parameters, in order.
+    pub shapes: &'static [ShapeInfo],
+    pub(crate) stage: Stage,
 }
 
 /// Position of an effect in a model; not part of the interface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stage {
     /// Adds to the transmission's input.
     Input,
@@ -196,30 +194,37 @@ pub enum Stage {
     Output,
 }
 
-impl Info {
+impl Stage {
     /// The position of an effect with these inputs, input stages excluded.
-    pub(super) const fn stage(&self) -> Stage {
-        let mut rest = self.reads;
+    pub(super) const fn of(reads: &[Quantity]) -> Self {
+        let mut rest = reads;
         while let [first, others @ ..] = rest {
             if matches!(first, Quantity::Output) {
-                return Stage::Output;
+                return Self::Output;
             }
             rest = others;
         }
-        Stage::Sum
+        Self::Sum
     }
 }
+
+/// The number of values differs from the number of shape parameters.
+pub(super) const COUNT: Error =
+    Error::Inadmissible("there must be one value for each shape of the effect");
 
 /// One effect as a separate type: its properties and its regressor.
 ///
 /// A [`FixedModel`](crate::model::FixedModel) uses it; [`Effect`](super::Effect) holds any effect.
 /// Only the effects of this crate implement the trait.
-pub trait Regressor<T>: sealed::Sealed {
+pub trait Regressor<T>: sealed::Sealed + Sized {
     /// Properties of the effect, without its shape parameters.
     const INFO: &'static Info;
 
     #[doc(hidden)]
-    const STAGE: Stage = Self::INFO.stage();
+    fn shape(&self, index: usize) -> Option<T>;
+
+    #[doc(hidden)]
+    fn try_from_shapes(values: &[T]) -> Result<Self, Error>;
 
     /// The regressor, if all its inputs are finite. It may overflow to an infinity, and may be NaN
     /// if this means zero; the memory must stay finite.

@@ -1,7 +1,7 @@
 //! The terms of a curve through points.
 
 use super::{padding, Source, Term};
-use crate::effect::{CurvePosition, CurveVelocity, Effect, Quantity};
+use crate::effect::{CurvePosition, CurveVelocity, Effect, Offset, Quantity};
 use crate::error::finite;
 use crate::{Error, Real};
 
@@ -43,7 +43,7 @@ impl<T: Real> Term<T> {
         for (term, (x, f)) in terms.iter_mut().zip(points) {
             let (from, level) = before.unwrap_or((x, T::zero()));
             let effect = match (before, over) {
-                (None, Quantity::Position | Quantity::Velocity) => Effect::Offset,
+                (None, Quantity::Position | Quantity::Velocity) => Effect::from(Offset),
                 (_, Quantity::Position) => CurvePosition::try_new(from, x - from)?.into(),
                 (_, Quantity::Velocity) => CurveVelocity::try_new(from, x - from)?.into(),
                 _ => return Err(Error::OutOfRange("over")),

@@ -262,10 +262,11 @@ impl<T: Real> Line<T> {
         let values = values.get(..given.len()).unwrap_or(&[]);
         let effect = Effect::try_from_name(name, values)
             .map_err(|error| E::custom(format_args!("term {name}: {error}")))?;
-        for (shape, expected) in given.iter().zip(effect.shape_names()) {
-            if !shape.name.is(expected) {
+        for (shape, expected) in given.iter().zip(effect.info().shapes) {
+            if !shape.name.is(expected.name) {
                 return Err(E::custom(format_args!(
-                    "term {name}: another shape where {expected} was expected"
+                    "term {name}: another shape where {} was expected",
+                    expected.name
                 )));
             }
         }
@@ -408,9 +409,9 @@ struct ShapeView<T> {
 
 impl<T: Real + Serialize> Serialize for ShapesView<'_, T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let names = self.0.shape_names().iter().enumerate();
-        to.collect_seq(names.filter_map(|(index, name)| {
-            let value = self.0.shape(index)?;
+        let shapes = self.0.info().shapes.iter().enumerate();
+        to.collect_seq(shapes.filter_map(|(index, shape)| {
+            let (name, value) = (shape.name, self.0.shape(index)?);
             Some(ShapeView { name, value })
         }))
     }

@@ -306,7 +306,7 @@ macro_rules! tuple {
             fn moved(&self, [$($E),*]: &mut [EffectState<T>; $n], sum: &Sum<T, $n>) -> T {
                 let mut moved = sum.at.input.position;
                 $(
-                    if $E::STAGE == Stage::Input {
+                    if $E::INFO.stage == Stage::Input {
                         moved = saturate(moved + self.$i.part($E, sum.motions[$i], sum));
                     }
                 )*
@@ -324,7 +324,7 @@ macro_rules! tuple {
                 let mut values = [T::ZERO; $n];
                 let mut output = sum.output;
                 $(
-                    if $E::STAGE == Stage::Sum {
+                    if $E::INFO.stage == Stage::Sum {
                         values[$i] = self.$i.value($E, sum.motions[$i], sum);
                         output += self.$i.gain * values[$i];
                     }
@@ -333,17 +333,17 @@ macro_rules! tuple {
                 if output.is_finite() {
                     sum.output = output;
                     $(
-                        if $E::STAGE == Stage::Sum {
+                        if $E::INFO.stage == Stage::Sum {
                             share($i, self.$i.gain * values[$i]);
                         }
                     )*
                 } else {
                     rarely();
-                    if !($($E::STAGE == Stage::Sum)||*) {
+                    if !($($E::INFO.stage == Stage::Sum)||*) {
                         sum.output = saturated(sum.output);
                     }
                     $(
-                        if $E::STAGE == Stage::Sum {
+                        if $E::INFO.stage == Stage::Sum {
                             sum.output = saturated_with(sum.output, self.$i.gain, &mut values[$i]);
                             share($i, values[$i]);
                         }
@@ -360,7 +360,7 @@ macro_rules! tuple {
                 share: &mut impl FnMut(usize, T),
             ) {
                 $(
-                    if $E::STAGE == Stage::Output {
+                    if $E::INFO.stage == Stage::Output {
                         let part = self.$i.part($E, sum.motions[$i], sum);
                         sum.output = saturate(sum.output + part);
                         share($i, part);

@@ -6,38 +6,38 @@ use bowden::Error;
 #[test]
 fn every_effect_with_shapes_is_one_expression_of_its_own_type() -> Result<(), Error> {
     let (a, b) = (0.7_f32, 0.3);
-    let constructed = [
-        Effect::Coulomb(Coulomb::try_new(a)?),
-        Effect::Stribeck(Stribeck::try_new(a, b)?),
-        Effect::LoadFriction(LoadFriction::try_new(a)?),
-        Effect::Capstan(Capstan::try_new(a, b)?),
-        Effect::DriveFriction(DriveFriction::try_new(a)?),
-        Effect::BackDriveFriction(BackDriveFriction::try_new(a)?),
-        Effect::Hinge(Hinge::try_new(a)?),
-        Effect::Gravity(Gravity::try_new(a)?),
-        Effect::Ripple(Ripple::try_new(a, b)?),
-        Effect::PositionFriction(PositionFriction::try_new(a)?),
-        Effect::Backlash(Backlash::try_new(a)?),
-        Effect::PlayInSeries(PlayInSeries::try_new(a)?),
-        Effect::DeadZone(DeadZone::try_new(a)?),
-        Effect::Lag(Lag::try_new(a)?),
-        Effect::Creep(Creep::try_new(a)?),
-        Effect::Presliding(Presliding::try_new(a)?),
-        Effect::PreslidingDahl(PreslidingDahl::try_new(a)?),
-        Effect::Degradation(Degradation::try_new(a)?),
-        Effect::Pinching(Pinching::try_new(a)?),
-        Effect::Pretension(Pretension::try_new(a)?),
-        Effect::Temperature(Temperature::try_new(a)?),
-        Effect::SaturationUpper(SaturationUpper::try_new(a)?),
-        Effect::SaturationLower(SaturationLower::try_new(a)?),
-        Effect::Tone(Tone::try_new(a, b)?),
-        Effect::Hardening(Hardening::try_new(a, b)?),
-        Effect::PowerLaw(PowerLaw::try_new(a)?),
-        Effect::CurvePosition(CurvePosition::try_new(a, b)?),
-        Effect::CurveVelocity(CurveVelocity::try_new(a, b)?),
+    let constructed: [Effect<f32>; 28] = [
+        Coulomb::try_new(a)?.into(),
+        Stribeck::try_new(a, b)?.into(),
+        LoadFriction::try_new(a)?.into(),
+        Capstan::try_new(a, b)?.into(),
+        DriveFriction::try_new(a)?.into(),
+        BackDriveFriction::try_new(a)?.into(),
+        Hinge::try_new(a)?.into(),
+        Gravity::try_new(a)?.into(),
+        Ripple::try_new(a, b)?.into(),
+        PositionFriction::try_new(a)?.into(),
+        Backlash::try_new(a)?.into(),
+        PlayInSeries::try_new(a)?.into(),
+        DeadZone::try_new(a)?.into(),
+        Lag::try_new(a)?.into(),
+        Creep::try_new(a)?.into(),
+        Presliding::try_new(a)?.into(),
+        PreslidingDahl::try_new(a)?.into(),
+        Degradation::try_new(a)?.into(),
+        Pinching::try_new(a)?.into(),
+        Pretension::try_new(a)?.into(),
+        Temperature::try_new(a)?.into(),
+        SaturationUpper::try_new(a)?.into(),
+        SaturationLower::try_new(a)?.into(),
+        Tone::try_new(a, b)?.into(),
+        Hardening::try_new(a, b)?.into(),
+        PowerLaw::try_new(a)?.into(),
+        CurvePosition::try_new(a, b)?.into(),
+        CurveVelocity::try_new(a, b)?.into(),
     ];
     for effect in constructed {
-        let shapes = &[a, b][..effect.shape_names().len()];
+        let shapes = &[a, b][..effect.info().shapes.len()];
         assert_eq!(Effect::try_from_name(effect.name(), shapes)?, effect);
     }
     let is_plain = |info: &&&Info| Effect::<f32>::try_from_name(info.name, &[]).is_ok();

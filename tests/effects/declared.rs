@@ -71,7 +71,7 @@ proptest! {
         let mirrored: Vec<_> = path.iter().map(mirror).collect();
         for name in names() {
             let effect = make(name);
-            check(name, effect.parity().mirror, &along(&effect, &path), &along(&effect, &mirrored));
+            check(name, effect.info().parity.mirror, &along(&effect, &path), &along(&effect, &mirrored));
         }
     }
 
@@ -85,7 +85,7 @@ proptest! {
         }).collect();
         for info in CATALOGUE.iter() {
             let effect = make(info.name);
-            let reversal = effect.parity().reversal;
+            let reversal = effect.info().parity.reversal;
             if info.memory {
                 prop_assert_eq!(reversal, Parity::Neither);
             } else {
@@ -102,14 +102,14 @@ proptest! {
         // Gravity's channel is in radians and no other; a power law's gain is the force at one unit.
         for name in names().filter(|name| !["gravity", "power-law"].contains(name)) {
             let mut effect = make(name);
-            for (index, shape) in effect.shape_info().iter().enumerate() {
+            for (index, shape) in effect.info().shapes.iter().enumerate() {
                 let value = effect.shape(index).unwrap() * factor(shape.dimension, units);
                 effect = effect.with_shape(index, value).unwrap();
             }
             let before = along(&make(name), &path);
             let scaled: Vec<_> = path.iter().map(|at| rescale(at, units)).collect();
             for (was, is) in before.iter().zip(along(&effect, &scaled)) {
-                let expected = was * factor(effect.dimension(), units);
+                let expected = was * factor(effect.info().dimension, units);
                 // Sines of angles up to 100 rad lose two digits; the rest is rounding.
                 assert_relative_eq!(is, expected, max_relative = 1e-9, epsilon = 1e-9);
             }

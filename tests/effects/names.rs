@@ -1,7 +1,7 @@
 //! Names, shapes and their ranges.
 
 use crate::{make, names};
-use bowden::effect::{Effect, Family, Range, CATALOGUE};
+use bowden::effect::{Effect, Range, CATALOGUE};
 use bowden::Error;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -14,7 +14,7 @@ proptest! {
     ) {
         for name in names() {
             let effect = make::<f64>(name);
-            for (index, shape) in effect.shape_info().iter().enumerate() {
+            for (index, shape) in effect.info().shapes.iter().enumerate() {
                 prop_assert_eq!(effect.with_shape(index, bad), Err(Error::NonFinite(shape.name)));
                 let refused = effect.with_shape(index, negative) == Err(Error::OutOfRange(shape.name));
                 prop_assert_eq!(refused, shape.range == Range::Positive);
@@ -29,10 +29,8 @@ fn every_name_makes_the_effect_that_bears_it() {
         let effect = make::<f32>(info.name);
         assert_eq!(effect.info(), *info);
         let shapes: Vec<f32> = (0..).map_while(|index| effect.shape(index)).collect();
-        assert_eq!(shapes.len(), effect.shape_names().len());
+        assert_eq!(shapes.len(), effect.info().shapes.len());
         assert_eq!(Effect::try_from_name(info.name, &shapes), Ok(effect));
-        let listed: Vec<_> = effect.shape_info().iter().map(|shape| shape.name).collect();
-        assert_eq!(listed, effect.shape_names());
     }
 }
 
@@ -47,7 +45,7 @@ fn wrong_names_and_wrong_numbers_of_shapes_are_refused() {
     }
     for name in names() {
         let effect = make::<f64>(name);
-        let number = effect.shape_names().len();
+        let number = effect.info().shapes.len();
         let too_many = vec![0.5; number + 1];
         assert_eq!(Effect::try_from_name(name, &too_many), Err(count), "{name}");
         if number > 0 {
@@ -64,23 +62,11 @@ fn wrong_names_and_wrong_numbers_of_shapes_are_refused() {
 }
 
 #[test]
-fn the_catalogue_names_no_effect_twice_and_every_family() {
+fn the_catalogue_names_no_effect_twice() {
     let mut seen: Vec<_> = names().collect();
     seen.sort_unstable();
     seen.dedup();
     assert_eq!(seen.len(), CATALOGUE.len());
-    for &family in Family::ALL {
-        assert!(
-            CATALOGUE.iter().any(|info| info.family == family),
-            "{family}"
-        );
-        assert_eq!(Family::from_name(&family.to_string()), Ok(family));
-    }
-    assert_eq!(Family::ALL.len(), 33);
-    assert_eq!(
-        Family::from_name("rust"),
-        Err(Error::OutOfRange("family name"))
-    );
 }
 
 /// Compact forms store an effect's place: what is added comes last, or old files would be read
@@ -136,7 +122,7 @@ mod serde {
 
     #[test]
     fn an_effect_without_shapes_is_its_name() {
-        for name in names().filter(|name| make::<f64>(name).shape_names().is_empty()) {
+        for name in names().filter(|name| make::<f64>(name).info().shapes.is_empty()) {
             let from: StrDeserializer<Error> = name.into_deserializer();
             assert_eq!(Effect::deserialize(from), Ok(make::<f64>(name)));
         }

@@ -12,7 +12,7 @@ proptest! {
     fn every_effect_is_finite_for_finite_input(path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8), shapes in prop::array::uniform2(extreme())) {
         for name in names() {
             let mut effect = make::<f32>(name);
-            for (index, shape) in shapes.into_iter().enumerate().take(effect.shape_names().len()) {
+            for (index, shape) in shapes.into_iter().enumerate().take(effect.info().shapes.len()) {
                 effect = effect.with_shape(index, shape).unwrap_or(effect);
             }
             let mut state = EffectState::default();

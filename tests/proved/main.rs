@@ -9,7 +9,7 @@ mod properties;
 mod relay;
 
 use bowden::control::*;
-use bowden::effect::{Effect, EffectState, Inputs, Motion, CATALOGUE};
+use bowden::effect::{Delay, DragCubic, Effect, EffectState, Inputs, Motion, CATALOGUE};
 use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, Source, Term};
 use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
@@ -383,7 +383,7 @@ proptest! {
     ) {
         let shape = BoucWen::try_new(0.095_82, sigma, 3.871).unwrap();
         let cable = Transmission::torque(0.997_8, 2.0, 0.051_74, shape).unwrap();
-        let (effect, source) = (Effect::DragCubic, Source::Channel(0));
+        let (effect, source) = (DragCubic.into(), Source::Channel(0));
         let friction = Term { effect, source, origin: 0.0, gain: -0.5 };
         let model = Model::<f32, 1>::try_new(Some(cable), &[friction]).unwrap();
         let compensator = Compensator::try_new(&model).unwrap();
@@ -412,7 +412,7 @@ proptest! {
                         motion, input: motion, dt: at[3], time: at[4], load: at[5], eta: at[6], output: at[7],
                     };
                     prop_assert!(effect::a_regressor_is_finite(&effect, &mut state, &at));
-                    if effect == Effect::Delay && at.output.is_finite() {
+                    if effect == Effect::from(Delay) && at.output.is_finite() {
                         prop_assert!(effect::a_late_output_is_finite(at.output, &mut state, &at));
                         prop_assert!(effect::a_late_output_is_finite(0.002, &mut state, &at));
                     }

@@ -20,12 +20,12 @@ use bowden_lab::search::close;
 use bowden_synth::{effects, Mode, Planted, Recipe};
 use rig::Made;
 
-/// Family of an effect by its own name.
+/// &'static str of an effect by its own name.
 fn family_of(name: &str) -> &'static str {
     bowden::effect::CATALOGUE
         .iter()
         .find(|i| i.name == name)
-        .map_or("", |i| i.family.name())
+        .map_or("", |i| i.family)
 }
 
 /// What is asked for.
@@ -110,7 +110,7 @@ impl Found {
     fn new(data: &Prepared, ledger: &Ledger, family: &str) -> Self {
         let is_right = |round: &&Round| {
             let mut possible = round.possible();
-            possible.any(|one| one.family.name() == family)
+            possible.any(|one| one.family == family)
         };
         let right = ledger.rounds.iter().filter(is_right).count();
         let mut names: Vec<String> = ledger.rounds.iter().map(|r| named(data, r)).collect();

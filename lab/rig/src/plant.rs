@@ -2,7 +2,7 @@
 
 use super::checked::{finite, saturate};
 use super::RigConfig;
-use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity};
+use bowden::effect::{EffectState, Inputs, Motion, Offset, Quantity};
 use bowden::hysteresis::{BoucWen, BoucWenState};
 use bowden::model::{Source, Term};
 use bowden::{Error, Real};
@@ -95,7 +95,7 @@ impl<T: Real, const N: usize> PlantState<T, N> {
 impl<T: Real, const N: usize> Plant<T, N> {
     pub(super) fn try_new(config: &RigConfig<T>, undeclared: &[Term<T>]) -> Result<Self, Error> {
         let nothing = Term {
-            effect: Effect::Offset,
+            effect: Offset.into(),
             source: Source::Input,
             origin: T::zero(),
             gain: T::zero(),

@@ -3,8 +3,8 @@
 use crate::effect::motion;
 use crate::transmission::transmission;
 use crate::{any, never_panics};
-use bowden::effect::{Backlash, Coulomb, Effect, Lag, Motion, PlayInSeries};
-use bowden::effect::{Quantity, Ripple, Stribeck};
+use bowden::effect::{Backlash, Coulomb, Lag, Motion, PlayInSeries};
+use bowden::effect::{Quantity, Ripple, Stribeck, Viscous};
 use bowden::model::{FixedModel, Model, ModelState, Sample, Source, Term};
 use bowden::Real;
 use std::hint::black_box;
@@ -12,7 +12,7 @@ use std::hint::black_box;
 /// Any term.
 pub fn term<T: Real>() -> Term<T> {
     black_box(Term {
-        effect: Effect::Viscous,
+        effect: Viscous.into(),
         source: Source::Input,
         origin: T::zero(),
         gain: T::zero(),

@@ -65,14 +65,14 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// ```
     /// use bowden::control::Compensator;
-    /// use bowden::effect::Effect;
+    /// use bowden::effect::{Delay, Viscous};
     /// use bowden::hysteresis::BoucWen;
     /// use bowden::model::{Model, Source, Term};
     /// use bowden::transmission::Transmission;
     ///
     /// let cable = Transmission::torque(0.952, 2.29, 0.05, BoucWen::try_new(0.382, 2.97, 1.02)?)?;
     /// let term = |effect, gain| Term { effect, source: Source::Channel(0), origin: 0.0, gain };
-    /// let terms = [term(Effect::Viscous, -0.264), term(Effect::Delay, 0.002_f32)];
+    /// let terms = [term(Viscous.into(), -0.264), term(Delay.into(), 0.002_f32)];
     /// let model = Model::<f32, 2>::try_new(Some(cable), &terms)?;
     ///
     /// assert!(Compensator::try_new(&model).is_err());

@@ -4,12 +4,12 @@
 
 use crate::compiler::{compiled_and_run, module};
 use crate::shell::said;
-use bowden::effect::{Effect, Range, CATALOGUE};
+use bowden::effect::{Effect, Range, Viscous, CATALOGUE};
 use bowden_lab::export::{About, ModelFile, ShapeFile, Span, TermFile};
 
 /// A model of one effect, with all that can stand in its file.
 fn of_effect(effect: &Effect<f64>, transmission: bool) -> ModelFile {
-    let shapes = effect.shape_info().iter().enumerate();
+    let shapes = effect.info().shapes.iter().enumerate();
     let shapes: Vec<ShapeFile> = shapes
         .map(|(index, info)| ShapeFile {
             name: info.name.to_owned(),
@@ -55,7 +55,7 @@ fn all() -> Vec<Effect<f64>> {
     let effect = |name: &str| {
         let tried = (0..3).find_map(|n| Effect::try_from_name(name, &vec![0.3183; n]).ok());
         let effect: Effect<f64> = tried.unwrap();
-        let ranges = effect.shape_info().iter().map(|s| s.range);
+        let ranges = effect.info().shapes.iter().map(|s| s.range);
         assert!(ranges
             .into_iter()
             .all(|r| matches!(r, Range::Finite | Range::Positive)));
@@ -89,7 +89,7 @@ fn model_rs_compiles_without_warnings_for_every_effect_and_is_that_model() {
 fn a_model_of_more_terms_than_a_fixed_one_holds_is_written_as_one_of_any_effect() {
     let most = 16;
     for terms in [most, most + 1] {
-        let mut file = of_effect(&Effect::Viscous, true);
+        let mut file = of_effect(&Viscous.into(), true);
         let coulomb = of_effect(&Effect::try_from_name("coulomb", &[0.3]).unwrap(), true);
         file.terms.extend(vec![coulomb.terms[0].clone(); terms - 1]);
         let text = file.rust().unwrap();
@@ -106,7 +106,7 @@ fn a_model_of_more_terms_than_a_fixed_one_holds_is_written_as_one_of_any_effect(
 
 #[test]
 fn a_model_of_nothing_but_a_transmission_compiles_too() {
-    let mut file = of_effect(&Effect::Viscous, true);
+    let mut file = of_effect(&Viscous.into(), true);
     file.terms.clear();
     let with_ranges = file.rust().unwrap();
     file.about = None;

@@ -117,7 +117,7 @@ fn the_page_of_the_effects_is_the_catalogue() {
             page,
             "| `{}` | {} | {} | {} | {} | {} |",
             info.name,
-            info.family.name(),
+            info.family,
             Mechanism::of(info.name, info.family).name(),
             info.formula.replace('|', "\\|"),
             unit(info.dimension),

@@ -33,7 +33,7 @@ impl Identity {
             Source::Channel(_) => data.channel(source).map(|c| c.name.clone()),
         };
         Self {
-            family: candidate.family.name(),
+            family: candidate.family,
             channel,
         }
     }

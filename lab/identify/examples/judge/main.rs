@@ -21,7 +21,6 @@ mod planting;
 #[path = "../../tests/identification/rig.rs"]
 mod rig;
 
-use bowden::effect::Family;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::mechanisms::mechanisms;
 use bowden_lab::ledger::Grade;
@@ -68,7 +67,7 @@ struct Outcome {
 }
 
 /// The family of an effect, `None` outside the catalogue; and its mechanism.
-fn effect(name: &str) -> (Option<Family>, Mechanism) {
+fn effect(name: &str) -> (Option<&'static str>, Mechanism) {
     match family_of(name) {
         Some(family) => (Some(family), Mechanism::of(name, family)),
         None if name.starts_with("bump") => (None, Mechanism::Elastic),
@@ -81,7 +80,7 @@ fn run(job: &Job) -> Outcome {
     let made = Made::new(&recipe);
     let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
     let truth: Vec<_> = job.planted.iter().map(|(name, _)| effect(name)).collect();
-    let families: Vec<Family> = truth.iter().filter_map(|(family, _)| *family).collect();
+    let families: Vec<&'static str> = truth.iter().filter_map(|(family, _)| *family).collect();
     let done = FinalFit::new(&made.data, &ledger);
     let mut outcome = Outcome {
         planted: families.len(),
@@ -89,9 +88,9 @@ fn run(job: &Job) -> Outcome {
         error: done.rmse.held_out / made.noise_floor(),
         ..Outcome::default()
     };
-    let mut seen: Vec<Family> = Vec::new();
+    let mut seen: Vec<&'static str> = Vec::new();
     for round in &ledger.rounds {
-        let own: Vec<Family> = round.possible().map(|one| one.family).collect();
+        let own: Vec<&'static str> = round.possible().map(|one| one.family).collect();
         let right = families.iter().any(|family| own.contains(family));
         outcome.wrong += usize::from(!right);
         if round.grade == Grade::High {

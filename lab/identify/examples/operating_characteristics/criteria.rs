@@ -8,7 +8,6 @@
 //! while n ln(SSE/n) + k ln n falls; the ERR rule while the next column takes at least
 //! 0.1 % of the sum of squares that the baseline model leaves.
 
-use bowden::effect::Family;
 use bowden_lab::fit::Solution;
 use bowden_lab::model::catalogue::Candidate;
 use bowden_lab::problem::{Prepared, Stretch};
@@ -19,18 +18,18 @@ const ERR: f64 = 1e-3;
 
 /// What a criterion chose.
 pub struct Chosen {
-    pub families: Vec<Family>,
+    pub families: Vec<&'static str>,
     /// Held-out error over what the noise leaves.
     pub reached: f64,
 }
 
 impl Chosen {
-    pub fn found(&self, planted: &[Family]) -> usize {
+    pub fn found(&self, planted: &[&'static str]) -> usize {
         planted.iter().filter(|f| self.families.contains(f)).count()
     }
 
     /// Families that were not planted.
-    pub fn wrong(&self, planted: &[Family]) -> usize {
+    pub fn wrong(&self, planted: &[&'static str]) -> usize {
         self.families
             .iter()
             .filter(|f| !planted.contains(f))
@@ -42,7 +41,7 @@ impl Chosen {
 pub struct Library<'a> {
     data: &'a Prepared,
     declared: &'a Solution,
-    families: Vec<Family>,
+    families: Vec<&'static str>,
     columns: Vec<Stretch>,
     order: Vec<usize>,
     /// Sum of squares before the first and after each of `order`.
@@ -156,7 +155,7 @@ impl<'a> Library<'a> {
             .unwrap();
         let held_out = &self.data.split.held_out;
         let rest = on(held_out, &self.declared.residual.clone().into()) - matrix(held_out) * gains;
-        let mut families: Vec<Family> = picked.iter().map(|&j| self.families[j]).collect();
+        let mut families: Vec<&'static str> = picked.iter().map(|&j| self.families[j]).collect();
         families.sort_unstable();
         families.dedup();
         Chosen {

@@ -25,7 +25,6 @@ mod record;
 #[path = "../../tests/identification/rig.rs"]
 mod rig;
 
-use bowden::effect::Family;
 use bowden_synth::{effects, outsiders, Mode, Recipe};
 use criteria::Chosen;
 use planting::{can_be_missing, family_of, recipe};
@@ -102,8 +101,8 @@ fn cell(
     wanted: &Wanted,
     colour: f64,
     records: Vec<(Mode, u64, Planting)>,
-) -> Vec<(Vec<Family>, Outcome)> {
-    let all: Vec<(Vec<Family>, Outcome)> = records
+) -> Vec<(Vec<&'static str>, Outcome)> {
+    let all: Vec<(Vec<&'static str>, Outcome)> = records
         .into_par_iter()
         .map(|(mode, seed, planting)| {
             let families = planting.iter().filter_map(|(e, _)| family_of(e)).collect();
@@ -141,7 +140,7 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Found, false and error, of the loop and of the two criteria.
-fn row(name: &str, all: &[(Vec<Family>, Outcome)]) {
+fn row(name: &str, all: &[(Vec<&'static str>, Outcome)]) {
     let loop_found = mean(all.iter().map(|(f, o)| o.found(f) as f64));
     let loop_wrong = mean(all.iter().map(|(f, o)| o.wrong(f) as f64));
     let runs = mean(all.iter().map(|(f, o)| f64::from(o.wrong(f) > 0)));
@@ -205,7 +204,7 @@ fn single(wanted: &Wanted) {
         let mut families: BTreeMap<&str, Vec<&'static str>> = BTreeMap::new();
         for name in effects(Mode::Torque).iter().filter(|n| wanted.chose(n)) {
             if let Some(family) = family_of(name) {
-                families.entry(family.name()).or_default().push(name);
+                families.entry(family).or_default().push(name);
             }
         }
         for (family, members) in families {

@@ -1,10 +1,10 @@
 //! Records with planted effects.
 
-use bowden::effect::{Family, CATALOGUE};
+use bowden::effect::CATALOGUE;
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// The family of an effect of the catalogue.
-pub fn family_of(effect: &str) -> Option<Family> {
+pub fn family_of(effect: &str) -> Option<&'static str> {
     CATALOGUE
         .iter()
         .find(|info| info.name == effect)

@@ -2,7 +2,6 @@
 
 use crate::criteria::{self, Chosen};
 use crate::rig::Made;
-use bowden::effect::Family;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::fit;
 use bowden_lab::ledger::{Ledger, Round};
@@ -14,7 +13,7 @@ use bowden_synth::Recipe;
 /// What one record gave.
 pub struct Outcome {
     /// The family of each round and those of its rivals.
-    pub rounds: Vec<Vec<Family>>,
+    pub rounds: Vec<Vec<&'static str>>,
     /// Held-out error of the last model over what the noise leaves.
     pub reached: f64,
     /// The same of the final model, whose parameters have seen the stop-check as well.
@@ -120,7 +119,7 @@ fn line(
 
 impl Outcome {
     /// How many of the planted families were named, or stand among the rivals of a name.
-    pub fn found(&self, planted: &[Family]) -> usize {
+    pub fn found(&self, planted: &[&'static str]) -> usize {
         planted
             .iter()
             .filter(|f| self.rounds.iter().any(|round| round.contains(f)))
@@ -129,12 +128,12 @@ impl Outcome {
 
     /// Rounds that name nothing that was planted, rivals included, and an "unknown" where
     /// nothing is.
-    pub fn wrong(&self, planted: &[Family]) -> usize {
+    pub fn wrong(&self, planted: &[&'static str]) -> usize {
         self.wrong_names(planted) + usize::from(self.unknown.is_some())
     }
 
     /// Rounds that name nothing that was planted, rivals included.
-    pub fn wrong_names(&self, planted: &[Family]) -> usize {
+    pub fn wrong_names(&self, planted: &[&'static str]) -> usize {
         self.rounds
             .iter()
             .filter(|round| planted.iter().all(|f| !round.contains(f)))

@@ -6,7 +6,7 @@ use crate::model::columns::{raw_columns, weighted};
 use crate::model::structure::{FitTerm, Free, Range, Role, Structure, Terms};
 use crate::problem::{HeldOut, Preparation, Prepared, Stretch, MOST_RECORDS};
 use crate::record::{Mode, Record};
-use bowden::effect::{Family, Motion};
+use bowden::effect::Motion;
 use bowden::model::{Model, Source};
 
 /// A model that has run on a record.
@@ -83,7 +83,7 @@ pub(super) fn remembers(model: &Solution) -> bool {
     let Structure {
         hysteresis, terms, ..
     } = &model.structure;
-    *hysteresis || terms.iter().any(|t| t.effect.has_memory())
+    *hysteresis || terms.iter().any(|t| t.effect.info().memory)
 }
 
 /// From where the motion came just before the record, for what keeps its memory until it is moved as far
@@ -101,7 +101,7 @@ pub(super) enum Before {
 impl Before {
     /// By how much the source of a term had moved.
     fn moved(self, data: &Prepared, given: &Given, term: &FitTerm) -> f64 {
-        if !term.has_past() || term.effect.family() == Family::Creep {
+        if !term.has_past() || term.effect.info().family == "creep" {
             return 0.0;
         }
         let name = match term.source {

@@ -11,7 +11,6 @@ use crate::problem::Prepared;
 use crate::record::{is_velocity, DefectKind, Mode};
 use crate::score::ranges::{beyond, range, POSITION};
 use crate::search::policy::AT_FLOOR;
-use bowden::effect::Family;
 use bowden::model::Source;
 
 /// A held-out error of this share of the output's standard deviation, and of this multiple of
@@ -85,7 +84,7 @@ pub(super) fn starts_apart(data: &Prepared, solution: &Solution) -> Option<Findi
             Role::Start { term, .. } => terms.find(term),
             _ => None,
         });
-    let creeps = starts.any(|term| term.effect.family() == Family::Creep);
+    let creeps = starts.any(|term| term.effect.info().family == "creep");
     creeps.then(|| Finding::CreepStartsOutside {
         output: data.output_name.clone(),
     })

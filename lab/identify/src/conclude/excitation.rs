@@ -56,7 +56,10 @@ pub(crate) fn of_role(solution: &Solution, role: Role) -> &'static str {
         Role::Origin { .. } => "strokes on both sides of the origin",
         Role::Shape { term, index } => {
             let fit = solution.structure.terms.find(term);
-            match fit.and_then(|t| t.effect.shape_names().get(index).copied()) {
+            match fit
+                .and_then(|t| t.effect.info().shapes.get(index))
+                .map(|shape| shape.name)
+            {
                 // The width of a change of sign, whatever it belongs to.
                 Some("v_e") => shown_by("coulomb"),
                 _ => own(term),

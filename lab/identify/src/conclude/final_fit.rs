@@ -88,7 +88,7 @@ impl FinalFit {
     pub fn term_of(&self, round: &Round) -> Option<usize> {
         let own = round.term();
         let apart = |term: &FitTerm| -> f64 {
-            let shapes = (0..term.effect.shape_names().len()).filter_map(|i| {
+            let shapes = (0..term.effect.info().shapes.len()).filter_map(|i| {
                 let (a, b) = (term.effect.shape(i)?, own.effect.shape(i)?);
                 Some((a - b).powi(2) / (a * a + b * b).max(f64::MIN_POSITIVE))
             });

@@ -76,7 +76,7 @@ struct Entry<'a> {
 
 /// Unit of a term's gain.
 pub(crate) fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
-    let d = term.effect.dimension();
+    let d = term.effect.info().dimension;
     let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
     let load = match data.load {
         Some(i) => data.channels[i].unit.as_deref(),
@@ -92,7 +92,7 @@ pub(crate) fn gain_unit(data: &Prepared, term: &FitTerm) -> Option<String> {
 }
 
 pub(crate) fn shape_unit(data: &Prepared, term: &FitTerm, index: usize) -> Option<String> {
-    let d = term.effect.shape_info().get(index)?.dimension;
+    let d = term.effect.info().shapes.get(index)?.dimension;
     let channel = data.channel(term.source).and_then(|c| c.unit.as_deref());
     Unit::one()
         .times(data.output_unit.as_deref(), i32::from(d.output))
@@ -241,8 +241,8 @@ fn named(
         Role::N => ("n".to_owned(), one),
         Role::Eta0 { record } => (of_record(data, "eta0", record), one),
         Role::Shape { index, .. } => {
-            let names = fit.map_or(&[][..], |fit| fit.effect.shape_names());
-            let shape = names.get(index).copied().unwrap_or_default();
+            let shapes = fit.map_or(&[][..], |fit| fit.effect.info().shapes);
+            let shape = shapes.get(index).map_or("", |shape| shape.name);
             let unit = fit.and_then(|fit| shape_unit(data, fit, index));
             (format!("{name}.{shape}"), unit)
         }

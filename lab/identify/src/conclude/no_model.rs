@@ -9,7 +9,6 @@ use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::record::Mode;
 use crate::score::explains::{explained, explained_on, Explained};
-use bowden::effect::Family;
 use bowden::model::Source;
 
 /// Least share of the held-out output that the input must explain in a valid model.
@@ -30,20 +29,20 @@ fn judged(shares: Explained, declared: &Solution, done: &Solution) -> f64 {
 fn is_friction_alone(solution: &Solution) -> bool {
     let terms = solution.structure.terms.iter();
     let mut read = terms.filter(|t| t.source != Source::Input).peekable();
-    let is_friction = |family: Family| {
+    let is_friction = |family: &str| {
         matches!(
             family,
-            Family::Viscous
-                | Family::Drag
-                | Family::Coulomb
-                | Family::Stribeck
-                | Family::Presliding
-                | Family::PowerLaw
-                | Family::PositionFriction
-                | Family::LoadFriction
+            "viscous"
+                | "drag"
+                | "coulomb"
+                | "stribeck"
+                | "presliding"
+                | "power-law"
+                | "position-friction"
+                | "load-friction"
         )
     };
-    read.peek().is_some() && read.all(|t| is_friction(t.effect.family()))
+    read.peek().is_some() && read.all(|t| is_friction(t.effect.info().family))
 }
 
 /// The share of the output that the baseline model explains by the input alone, if a channel

@@ -114,7 +114,7 @@ fn is_explained(round: &Round, error: f64) -> bool {
     let effect = &round.term().effect;
     let reads = |what: &Quantity| matches!(what, Quantity::Velocity | Quantity::Acceleration);
     let is_of_motion = effect.info().reads.iter().any(reads)
-        || effect.has_memory()
+        || effect.info().memory
         || effect.reads_eta()
         || effect.is_input_stage();
     let removed = (round.before.fit.powi(2) - round.after.fit.powi(2))

@@ -311,8 +311,11 @@ fn units(data: &Prepared, solution: &Solution) -> BTreeMap<String, String> {
     }
     for term in &solution.structure.terms {
         let name = term_name(data, term);
-        for (index, shape) in term.effect.shape_names().iter().enumerate() {
-            add(format!("{name}.{shape}"), shape_unit(data, term, index));
+        for (index, shape) in term.effect.info().shapes.iter().enumerate() {
+            add(
+                format!("{name}.{}", shape.name),
+                shape_unit(data, term, index),
+            );
         }
         add(name, gain_unit(data, term));
     }

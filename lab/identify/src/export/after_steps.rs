@@ -7,15 +7,14 @@
 
 use crate::fit::{Segments, Solution};
 use crate::problem::Prepared;
-use bowden::effect::Family;
 
 /// The record as it would be if each pretension step of a solution had come before it; `None`
 /// where there is none.
 pub(super) fn after_steps(data: &Prepared, solution: &Solution) -> Option<Prepared> {
     let terms = solution.structure.terms.iter().enumerate();
-    let is_step = |family: Family| family == Family::Pretension;
+    let is_step = |family: &str| family == "pretension";
     let mut output = None;
-    for (index, term) in terms.filter(|(_, term)| is_step(term.effect.family())) {
+    for (index, term) in terms.filter(|(_, term)| is_step(term.effect.info().family)) {
         let (step, gain) = (solution.adds(data, term)?, solution.gain(index));
         let shifted = output.get_or_insert_with(|| data.output().to_vec());
         for (y, stepped) in shifted.iter_mut().zip(step) {

@@ -13,23 +13,23 @@ use crate::model::effects::of_the_record;
 use crate::model::structure::Structure;
 use crate::problem::Prepared;
 use crate::score::hats::HATS;
-use bowden::effect::{Effect, Family};
+use bowden::effect::Effect;
 
 /// Whether an effect counts from the first sample of its record.
 #[must_use]
 pub fn is_clockwork(effect: &Effect<f64>) -> bool {
-    counts_from_the_start(effect.family())
+    counts_from_the_start(effect.info().family)
 }
 
 /// Whether the effects of a family count from the first sample of their record.
 #[must_use]
-pub fn counts_from_the_start(family: Family) -> bool {
+pub fn counts_from_the_start(family: &'static str) -> bool {
     of_the_record(family).is_some()
 }
 
 /// Why an effect of this family is not handed over; empty where it is.
 #[must_use]
-pub fn because(family: Family) -> &'static str {
+pub fn because(family: &'static str) -> &'static str {
     of_the_record(family).unwrap_or_default()
 }
 

@@ -218,7 +218,7 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
     clocks
         .map(|term| LeftOut {
             effect: term_name(data, term),
-            reason: because(term.effect.family()).to_owned(),
+            reason: because(term.effect.info().family).to_owned(),
         })
         .chain(curve)
         .collect()

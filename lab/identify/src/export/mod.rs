@@ -127,7 +127,7 @@ fn curve(solution: &Solution) -> Vec<Term<f64>> {
 
 impl TermFile {
     fn new(data: &Prepared, term: &Term<f64>) -> Self {
-        let shapes = term.effect.shape_names().iter().enumerate();
+        let shapes = term.effect.info().shapes.iter().enumerate();
         Self {
             effect: term.effect.name().to_owned(),
             source: match term.source {
@@ -139,8 +139,8 @@ impl TermFile {
             origin: term.origin,
             gain: term.gain,
             shapes: shapes
-                .map(|(i, name)| ShapeFile {
-                    name: (*name).to_owned(),
+                .map(|(i, shape)| ShapeFile {
+                    name: shape.name.to_owned(),
                     value: term.effect.shape(i).unwrap_or(0.0),
                 })
                 .collect(),

@@ -356,7 +356,7 @@ impl ModelFile {
             true => String::new(),
             false => format!("; {}", shapes.join(", ")),
         };
-        line!(out, "        // {name}: {}{with}", effect.formula());
+        line!(out, "        // {name}: {}{with}", effect.info().formula);
         line!(out, "        Term {{");
         let values: Vec<String> = term.shapes.iter().map(|s| number(s.value)).collect();
         let built = match values.is_empty() {

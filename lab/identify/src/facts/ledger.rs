@@ -181,7 +181,7 @@ impl Facts {
             .map_err(str::to_owned);
         let rejected = ledger.rejected.iter().map(|r| RejectedFacts {
             title: term_title(data, &r.candidate.term),
-            family: r.candidate.family.name(),
+            family: r.candidate.family,
             effect: r.candidate.term.effect.name(),
             channel: channel_name(data, r.candidate.term.source),
             gate: r.gate,

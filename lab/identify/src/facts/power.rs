@@ -87,16 +87,16 @@ pub fn power(
 impl PowerRow {
     fn new(data: &Prepared, row: &Row) -> Self {
         let effect = row.term.effect;
-        let shapes = effect.shape_names().iter().enumerate();
-        let shapes = shapes.filter_map(|(index, &name)| {
+        let shapes = effect.info().shapes.iter().enumerate();
+        let shapes = shapes.filter_map(|(index, shape)| {
             Some(ShapeFacts {
-                name,
+                name: shape.name,
                 value: effect.shape(index)?,
                 unit: shape_unit(data, &row.term, index),
             })
         });
         Self {
-            family: effect.family().name(),
+            family: effect.info().family,
             effect: effect.name(),
             name: term_name(data, &row.term),
             channel: channel_name(data, row.term.source),

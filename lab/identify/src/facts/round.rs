@@ -154,12 +154,12 @@ impl RoundFacts {
     ) -> Self {
         let rivals = round.rivals.iter().map(|r| RivalFacts {
             title: term_title(data, &r.term),
-            family: r.family.name(),
+            family: r.family,
             channel: channel_name(data, r.term.source),
         });
         Self {
             title: done.title_of(round),
-            family: round.candidate.family.name(),
+            family: round.candidate.family,
             effect: round.candidate.term.effect.name(),
             channel: channel_name(data, round.candidate.term.source),
             grade: round.grade,

@@ -9,7 +9,7 @@ use super::structure::{FitTerm, Structure};
 use super::variable::Variable;
 use crate::problem::{Channel, Prepared, MOST_RECORDS};
 use crate::record::Mode;
-use bowden::effect::{Backlash, Effect, Family, Presliding, Quantity, CATALOGUE};
+use bowden::effect::{Backlash, Effect, Presliding, Quantity, CATALOGUE};
 use bowden::model::Source;
 use std::ops::Range;
 
@@ -19,12 +19,12 @@ pub struct Candidate {
     /// The effect with a trial shape, and what it reads.
     pub term: FitTerm,
     /// Its family.
-    pub family: Family,
+    pub family: &'static str,
 }
 
 impl From<FitTerm> for Candidate {
     fn from(term: FitTerm) -> Self {
-        let family = term.effect.family();
+        let family = term.effect.info().family;
         Self { term, family }
     }
 }
@@ -138,7 +138,7 @@ impl Collector<'_> {
         } else {
             0.0
         };
-        let family = effect.family();
+        let family = effect.info().family;
         self.found.push(Candidate {
             term: FitTerm {
                 effect,

@@ -5,7 +5,7 @@ use super::kind::{kind, Kind};
 use super::structure::{FitTerm, Structure};
 use crate::problem::{Prepared, MOST_RECORDS};
 use crate::record::{nearest, Mode};
-use bowden::effect::{Effect, Family, CATALOGUE};
+use bowden::effect::{Effect, CATALOGUE};
 use bowden::model::Source;
 
 /// The effect that a name in `--baseline` means: the name of an effect, or of a family, which means
@@ -76,8 +76,14 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
 /// The families of which the first effect can be declared.
 fn families() -> Vec<&'static str> {
     let can = |name: &&str| first_of(name).is_some_and(|entry| entry.declared != Declared::Never);
-    let names = Family::ALL.iter().map(|family| family.name());
-    names.filter(can).collect()
+    let mut names: Vec<&'static str> = CATALOGUE
+        .iter()
+        .map(|info| info.family)
+        .filter(can)
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 /// The structure that a `--baseline` list means.

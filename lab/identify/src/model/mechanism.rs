@@ -5,7 +5,6 @@ use super::kind::{kind, Kind};
 use super::term::FitTerm;
 use super::variable::Variable;
 use crate::problem::Prepared;
-use bowden::effect::Family;
 use bowden::model::Source;
 
 /// A group of effects that one record cannot always tell apart.
@@ -39,7 +38,7 @@ impl Mechanism {
 
     /// The mechanism of a term.
     pub(crate) fn of_term(term: &FitTerm) -> Self {
-        Self::of(term.effect.name(), term.effect.family())
+        Self::of(term.effect.name(), term.effect.info().family)
     }
 
     /// The mechanism of a curve over a variable.
@@ -77,7 +76,7 @@ impl Mechanism {
 
     /// The mechanism of an effect, by its name and its family.
     #[must_use]
-    pub fn of(name: &str, family: Family) -> Self {
+    pub fn of(name: &str, family: &'static str) -> Self {
         match family {
             // These three are functions of the state of the hysteresis.
             _ if [
@@ -92,27 +91,13 @@ impl Mechanism {
             _ if name == "curve-velocity" => Self::Friction,
             // A characteristic with a gap, without memory.
             _ if name == "dead-zone" => Self::Elastic,
-            Family::Viscous
-            | Family::Coulomb
-            | Family::Stribeck
-            | Family::Drag
-            | Family::PowerLaw
-            | Family::Asymmetry
-            | Family::PositionFriction
-            | Family::LoadFriction
-            | Family::Capstan
-            | Family::Direction
-            | Family::Rate
-            | Family::Lag
-            | Family::Delay => Self::Friction,
-            Family::Inertia => Self::Inertia,
-            Family::Presliding | Family::Backlash | Family::Creep => Self::ContactMemory,
-            Family::Pinching => Self::HysteresisShape,
-            Family::Drift
-            | Family::Pretension
-            | Family::Degradation
-            | Family::Temperature
-            | Family::Tone => Self::Time,
+            "viscous" | "coulomb" | "stribeck" | "drag" | "power-law" | "asymmetry"
+            | "position-friction" | "load-friction" | "capstan" | "direction" | "rate" | "lag"
+            | "delay" => Self::Friction,
+            "inertia" => Self::Inertia,
+            "presliding" | "backlash" | "creep" => Self::ContactMemory,
+            "pinching" => Self::HysteresisShape,
+            "drift" | "pretension" | "degradation" | "temperature" | "tone" => Self::Time,
             _ => Self::Elastic,
         }
     }

@@ -44,6 +44,6 @@ impl FitTerm {
 
     /// Whether the effect happens at a moment of the record.
     pub(crate) fn has_moment(&self) -> bool {
-        (0..self.effect.shape_names().len()).any(|shape| self.is_moment(shape))
+        (0..self.effect.info().shapes.len()).any(|shape| self.is_moment(shape))
     }
 }

@@ -14,7 +14,7 @@ use crate::problem::filter::ABREAST;
 use crate::problem::{Prepared, Stretch};
 use crate::score::hats::{hats, is_phase};
 use crate::score::tones;
-use bowden::effect::{Effect, Family};
+use bowden::effect::Effect;
 use bowden::model::Source;
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -305,7 +305,7 @@ fn tone(data: &Prepared, now: &Solution) -> Option<Candidate> {
 /// The column of a step at row `k` is the sum of the unit vectors from `k` on, so its products
 /// with the residual and with the model's columns are cumulative sums.
 fn steps(data: &Prepared, now: &Solution, tried: &[Candidate]) -> Vec<Candidate> {
-    let Some(like) = tried.iter().find(|c| c.family == Family::Pretension) else {
+    let Some(like) = tried.iter().find(|c| c.family == "pretension") else {
         return Vec::new();
     };
     let span = Span::of(data, now.columns.iter().chain(&now.tangents));
@@ -344,7 +344,7 @@ fn steps(data: &Prepared, now: &Solution, tried: &[Candidate]) -> Vec<Candidate>
                     effect: Effect::try_from_name("pretension", &[moment]).ok()?,
                     ..like.term
                 },
-                family: Family::Pretension,
+                family: "pretension",
             })
         })
         .collect()

@@ -42,7 +42,7 @@ impl Linear<'_> {
             // As the curve, a function of the variable: nothing that remembers, no stage.
             let reads = |c: &Candidate| {
                 let effect = &c.term.effect;
-                c.variables().contains(&variable) && !effect.has_memory() && !is_stage(effect)
+                c.variables().contains(&variable) && !effect.info().memory && !is_stage(effect)
             };
             let is_known = |m: &Move| self.groups[m.added[0]].is_like(&self.groups[g]);
             if !self.groups[g].candidate().is_some_and(|c| reads(&c))

@@ -405,7 +405,7 @@ impl Context<'_, '_> {
             let Some(candidate) = group.candidate() else {
                 continue;
             };
-            if (candidate.family, candidate.term.source) == (own.effect.family(), own.source)
+            if (candidate.family, candidate.term.source) == (own.effect.info().family, own.source)
                 || is_told_apart(own, &candidate.term)
             {
                 continue;

@@ -78,7 +78,7 @@ fn the_planned_motion_tells_the_cubic_stiffness_from_the_dead_zone() {
     let (made, record) = confounded();
     let (data, ledger) = closed(&record);
     let round = &ledger.rounds[0];
-    let rivals: Vec<&str> = round.rivals.iter().map(|r| r.family.name()).collect();
+    let rivals: Vec<&str> = round.rivals.iter().map(|r| r.family).collect();
     assert!(rivals.contains(&"backlash"), "{rivals:?}");
     let experiment = separate(&data, round).unwrap();
     // A rival that this motion does not separate is no aim of it.
@@ -102,8 +102,8 @@ fn the_planned_motion_tells_the_cubic_stiffness_from_the_dead_zone() {
         let measured = rig(&csv, &truth.base, truth.effects[0].gain, seed);
         let (_, told) = closed(&measured);
         let first = &told.rounds[0];
-        assert_eq!(first.candidate.family.name(), "stiffness");
-        let rivals: Vec<&str> = first.rivals.iter().map(|r| r.family.name()).collect();
+        assert_eq!(first.candidate.family, "stiffness");
+        let rivals: Vec<&str> = first.rivals.iter().map(|r| r.family).collect();
         assert!(rivals.is_empty(), "still confounded with {rivals:?}");
     }
 }

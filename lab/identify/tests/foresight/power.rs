@@ -34,7 +34,7 @@ fn found(effect: &str, family: &str, rms: f64) -> usize {
             let (_, ledger) = closed(&record);
             ledger.rounds.iter().any(|round| {
                 let mut possible = round.possible();
-                possible.any(|one| one.family.name() == family)
+                possible.any(|one| one.family == family)
             })
         })
         .count()
@@ -61,7 +61,7 @@ fn what_it_claims_to_find_is_found_a_little_above_and_less_often_at_half() {
             panic!("{row:?}");
         };
         assert!(gain > 0.0);
-        let (effect, family) = (row.term.effect.name(), row.term.effect.family().name());
+        let (effect, family) = (row.term.effect.name(), row.term.effect.info().family);
         let (above, half) = (
             found(effect, family, 1.3 * amplitude),
             found(effect, family, 0.5 * amplitude),

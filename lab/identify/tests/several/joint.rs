@@ -1,7 +1,6 @@
 //! What one model of several records finds, and what it leaves to each.
 
 use crate::rig::{added, closed, declared, on, Files};
-use bowden::effect::Family;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::search::close;
@@ -37,7 +36,7 @@ fn a_bend_that_neither_file_shows_alone_is_found_in_both_together() {
     let data = files.joined(HeldOut::Trailing);
     let ledger = closed(&data);
     let first = &ledger.rounds[0];
-    assert_eq!(first.candidate.family, Family::Stiffness);
+    assert_eq!(first.candidate.family, "stiffness");
     // What is left is the noise of the sensors: the floor is an estimate, see the verdict.
     let last = ledger.last().rmse;
     assert!(last.fit < 1.2 * data.noise_floor, "{last:?}");

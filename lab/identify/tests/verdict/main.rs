@@ -6,7 +6,6 @@
 
 mod unexpected;
 
-use bowden::effect::Family;
 use bowden_lab::conclude::curve::curve;
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::intervals::term_name;
@@ -170,7 +169,7 @@ fn a_tone_as_strong_as_the_noise_is_named_with_its_frequency() {
             .ledger
             .rounds
             .iter()
-            .find(|r| r.candidate.family == Family::Tone);
+            .find(|r| r.candidate.family == "tone");
         // A twentieth of one over the length of the segment that is fitted, 12 s.
         tone.and_then(|r| r.solution.structure.terms.last())
             .and_then(|term| term.effect.shape(0))
@@ -188,7 +187,7 @@ fn where_nothing_is_missing_nothing_is_unknown_and_there_is_no_tone() {
                 .ledger
                 .rounds
                 .iter()
-                .any(|r| r.candidate.family == Family::Tone);
+                .any(|r| r.candidate.family == "tone");
             assert!(
                 closed.ledger.unknown.is_none() && !tone,
                 "colour {colour}: {}",
@@ -211,7 +210,7 @@ fn a_tone_above_the_cut_off_is_named_with_its_frequency() {
         let rounds = closed.ledger.rounds.iter();
         let tone = rounds
             .clone()
-            .find(|r| r.candidate.family == Family::Tone)
+            .find(|r| r.candidate.family == "tone")
             .and_then(|r| r.term().effect.shape(0));
         // A twentieth of one over the length of the segment that is fitted, 12 s.
         assert!(

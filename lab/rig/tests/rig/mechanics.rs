@@ -1,7 +1,7 @@
 //! What the equations of motion say in closed form.
 
 use approx::assert_relative_eq;
-use bowden::effect::Effect;
+use bowden::effect::{Effect, Gain, StiffnessQuadratic, Viscous};
 use bowden::model::{Source, Term};
 use bowden_rig::{Reference, Rig, RigConfig, RigState};
 
@@ -199,9 +199,9 @@ fn an_undeclared_effect_adds_its_gain_times_its_regressor() {
         gain,
     };
     let terms = [
-        term(Effect::StiffnessQuadratic, Source::Channel(1), -40.0),
-        term(Effect::Viscous, Source::Channel(0), -2.0),
-        term(Effect::Gain, Source::Input, 0.1),
+        term(StiffnessQuadratic.into(), Source::Channel(1), -40.0),
+        term(Viscous.into(), Source::Channel(0), -2.0),
+        term(Gain.into(), Source::Input, 0.1),
     ];
     let rig = Rig::<f64, 3>::try_new(linear(), &terms).unwrap();
     let mut state = rig.start(1);
@@ -219,7 +219,7 @@ fn an_undeclared_effect_adds_its_gain_times_its_regressor() {
 /// `gain` is a function of the load or of the position, as the catalogue says.
 fn gain_reads_position() -> bool {
     use bowden::effect::Quantity;
-    Effect::<f64>::Gain
+    Effect::<f64>::from(Gain)
         .info()
         .reads
         .contains(&Quantity::Position)

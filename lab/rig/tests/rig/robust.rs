@@ -1,6 +1,6 @@
 //! Bad samples, refused numbers, single precision.
 
-use bowden::effect::{Effect, CATALOGUE};
+use bowden::effect::{Effect, Viscous, CATALOGUE};
 use bowden::model::{Source, Term};
 use bowden::{Error, Real};
 use bowden_rig::{Reference, Rig, RigConfig};
@@ -118,7 +118,7 @@ fn numbers_that_make_no_rig_are_refused_by_name() {
         Error::Inadmissible(_)
     ));
     let term = Term {
-        effect: Effect::Viscous,
+        effect: Viscous.into(),
         source: Source::Channel(2),
         origin: 0.0,
         gain: 1.0,

@@ -112,7 +112,7 @@ impl Placed<'_> {
     fn span_with(&self, term: &FitTerm, column: DVector<f64>) -> Option<Span> {
         let mut span = self.span.clone();
         span.add(column);
-        for index in 0..term.effect.shape_names().len() {
+        for index in 0..term.effect.info().shapes.len() {
             let value = term.effect.shape(index)?;
             let h = 1e-4 * value.abs().max(1e-6);
             let at = |v: f64| {

@@ -33,7 +33,6 @@ use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::nearest;
 use crate::search::close;
-use bowden::effect::Family;
 use planted::Trials;
 use screen::Screen;
 
@@ -148,7 +147,7 @@ fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec
     }
     let asked = |term: &FitTerm, name: &str| {
         name == term.effect.name()
-            || name == term.effect.family().name()
+            || name == term.effect.info().family
             || name == crate::conclude::intervals::term_name(data, term)
     };
     if let Some(name) = names
@@ -176,7 +175,7 @@ fn targets(data: &Prepared, solution: &Solution, names: &[String]) -> Result<Vec
 }
 
 /// Whether a run names that family, or holds it possible.
-fn names(ledger: &Ledger, family: Family) -> bool {
+fn names(ledger: &Ledger, family: &'static str) -> bool {
     let mut rounds = ledger.rounds.iter();
     rounds.any(|round| round.possible().any(|one| one.family == family))
 }
@@ -191,7 +190,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// In how many trials it is found; `None` as soon as too many have failed.
-    fn found(&self, contribution: &[f64], family: Family, amplitude: f64) -> Option<usize> {
+    fn found(&self, contribution: &[f64], family: &'static str, amplitude: f64) -> Option<usize> {
         let count = self.trials.count();
         let mut times = 0;
         for trial in 0..count {
@@ -221,7 +220,7 @@ impl Search<'_> {
             screen::Outcome::Never => return Answer::NotFound { tried: most },
             screen::Outcome::From(a) => (a, 0.0),
         };
-        let family = term.effect.family();
+        let family = term.effect.info().family;
         let at = |amplitude: f64| self.found(&planted.unit, family, amplitude);
         let root = std::f64::consts::SQRT_2;
         let mut now = screened;

@@ -33,15 +33,15 @@ impl Stage {
         if !(gain.abs() < SMALL && dt > 0.0) {
             return None;
         }
-        match effect {
-            Effect::Lag(lag) => Some(Self::Lag {
-                share: -Real::exp_m1(-dt / lag.tau()),
+        match effect.name() {
+            "lag" => Some(Self::Lag {
+                share: -Real::exp_m1(-dt / effect.shape(0)?),
                 gain,
             }),
-            Effect::Delay if gain > 0.0 => Some(Self::Late {
+            "delay" if gain > 0.0 => Some(Self::Late {
                 share: (dt - gain) / (dt + gain),
             }),
-            Effect::Delay => Some(Self::Early { gain, dt }),
+            "delay" => Some(Self::Early { gain, dt }),
             _ => None,
         }
     }

@@ -287,7 +287,7 @@ fn eta_slopes(
     (column, eta): (&Stretch, &[f64]),
     sensitivities: &[(usize, Stretch)],
 ) -> Option<Vec<(usize, Stretch)>> {
-    let in_eta = match term.effect.has_memory() || sensitivities.is_empty() {
+    let in_eta = match term.effect.info().memory || sensitivities.is_empty() {
         true => None,
         false => {
             let moved: Vec<f64> = eta.iter().map(|e| e + ETA_STEP).collect();

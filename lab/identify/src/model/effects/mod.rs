@@ -15,7 +15,7 @@ use super::kind::{kind, Kind};
 use super::variable::Variable;
 use crate::problem::{Channel, Prepared};
 use crate::record::Mode;
-use bowden::effect::{Effect, Family, Info, Quantity, CATALOGUE};
+use bowden::effect::{Effect, Info, Quantity, CATALOGUE};
 use bowden::model::Source;
 
 /// The motion that shows an asymmetry of any kind.
@@ -215,7 +215,7 @@ pub(crate) fn entry(name: &str) -> Option<&'static Entry> {
 /// The first effect of a family, in the order of the core's catalogue.
 pub(crate) fn first_of(family: &str) -> Option<&'static Entry> {
     let mut all = CATALOGUE.iter();
-    let first = all.find(|info| info.family.name() == family)?;
+    let first = all.find(|info| info.family == family)?;
     entry(first.name)
 }
 
@@ -230,7 +230,7 @@ pub(crate) fn shown_by(name: &str) -> &'static str {
 }
 
 /// Why a family belongs to the record on which it was found; `None` if it belongs to the rig.
-pub(crate) fn of_the_record(family: Family) -> Option<&'static str> {
+pub(crate) fn of_the_record(family: &'static str) -> Option<&'static str> {
     let is_of = |entry: &&Entry| info(entry.name).is_some_and(|info| info.family == family);
     table().find(is_of)?.of_the_record
 }

@@ -6,13 +6,13 @@ use crate::Real;
 /// The inputs of an effect at one sample.
 ///
 /// ```
-/// use bowden::effect::{Effect, EffectState, Motion, Inputs};
+/// use bowden::effect::{Effect, EffectState, Inputs, Motion, Viscous};
 /// let at = Inputs {
 ///     motion: Motion { velocity: 2.0, ..Motion::default() },
 ///     ..Inputs::default()
 /// };
 /// let mut state = EffectState::default();
-/// assert_eq!(Effect::Viscous.regressor(&mut state, &at), 2.0);
+/// assert_eq!(Effect::from(Viscous).regressor(&mut state, &at), 2.0);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -1,0 +1,349 @@
+//! Friction: regressors of the velocity, some times the load or the position.
+
+use super::bounds::saturate;
+use super::declare::effect;
+use super::{Dimension, Inputs};
+use crate::Real;
+
+effect! {
+    /// Viscous friction: odd in the velocity, and linear.
+    ///
+    /// Formula: `v`.
+    ///
+    /// Source: B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, "A survey of
+    /// models, analysis tools and compensation methods for the control of machines
+    /// with friction", *Automatica* 30(7), 1994.
+    Viscous;
+    "viscous" in "viscous": "v", Dimension::VELOCITY, Odd Odd, reads Velocity;
+    value(_, _, at) = at.motion.velocity;
+}
+
+effect! {
+    /// Drag: odd in the velocity, and growing faster than linearly.
+    ///
+    /// Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
+    ///
+    /// Source: K. Worden, G. R. Tomlinson, *Nonlinearity in Structural Dynamics*,
+    /// 2001, chapter 2.
+    DragQuadratic;
+    "drag-quadratic" in "drag": "v·|v|", Dimension { channel: 2, time: -2, ..Dimension::ONE },
+        Odd Odd, reads Velocity;
+    value(_, _, at) = at.motion.velocity * at.motion.velocity.abs();
+}
+
+effect! {
+    /// Cubic drag, the next odd power.
+    ///
+    /// Formula: `v³`; source: [`DragQuadratic`](super::DragQuadratic).
+    DragCubic;
+    "drag-cubic" in "drag": "v³", Dimension { channel: 3, time: -3, ..Dimension::ONE },
+        Odd Odd, reads Velocity;
+    value(_, _, at) = at.motion.velocity * at.motion.velocity * at.motion.velocity;
+}
+
+effect! {
+    /// Drag that grows with a power of the velocity.
+    ///
+    /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless,
+    /// and the gain is the force at 1 channel unit/s, in the output's unit. The same record gives a
+    /// different gain in mm than in m, but the same exponent. For `0 < a < 1` the force rises
+    /// steeply from standstill and then flattens. This range lies between Coulomb friction (the
+    /// limit a → 0) and [`Viscous`](super::Viscous) (a = 1). The function is continuous at v = 0,
+    /// where its slope is infinite.
+    ///
+    /// Oils with additives, greases, and (past yield) the fluids of magnetorheological dampers become
+    /// thinner as the shear rate rises. The constructor accepts any a > 0. With a above 1 the fluid
+    /// thickens; the formulas of [`DragQuadratic`](super::DragQuadratic) are the cases a = 2 and a = 3.
+    ///
+    /// Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
+    /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,
+    /// M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers", *Journal of
+    /// Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper development and
+    /// future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
+    ///
+    /// ```
+    /// use bowden::{effect::PowerLaw, Error};
+    /// assert!(PowerLaw::try_new(0.4).is_ok());
+    /// assert!(PowerLaw::try_new(0.0), Err(Error::OutOfRange("a")));
+    /// ```
+    PowerLaw {
+        /// Exponent.
+        a: Positive, Dimension::ONE;
+    }
+    "power-law" in "power-law": "sgn(v)·|v|^a", Dimension::ONE, Odd Odd, reads Velocity;
+    value(it, _, at) = {
+        let v = at.motion.velocity;
+        let size = v.abs().short_pow(it.a);
+        if v < T::zero() {
+            -size
+        } else {
+            size
+        }
+    };
+}
+
+effect! {
+    /// Coulomb friction, smoothed over the velocity `v_e`.
+    ///
+    /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a fixed width that is too
+    /// small, a spurious Stribeck effect would compensate for the error.
+    ///
+    /// Source: S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding
+    /// dry, boundary and mixed lubricated contacts", *Tribology International* 40(4),
+    /// 2007.
+    ///
+    /// ```
+    /// use bowden::{effect::Coulomb, Error};
+    /// assert_eq!(Coulomb::try_new(0.5).is_ok());
+    /// assert!(Coulomb::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// ```
+    Coulomb {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+    "coulomb" in "coulomb": "tanh(v/v_e)", Dimension::ONE, Odd Odd, reads Velocity;
+    value(it, _, at) = sign(at.motion.velocity, it.v_e);
+}
+
+/// sgn(v), smoothed: `tanh(v/v_e)`. All dry friction of the catalogue uses this function.
+#[inline]
+fn sign<T: Real>(v: T, v_e: T) -> T {
+    (v / v_e).short_tanh()
+}
+
+effect! {
+    /// The excess friction at low speed.
+    ///
+    /// Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, with a = 2 for the usual bell curve and a = 1
+    /// for the exponential. The friction at high speed is Coulomb friction.
+    ///
+    /// Source: R. Stribeck, *Zeitschrift des VDI* 46, 1902; the exponential form is
+    /// L. C. Bo, D. Pavelescu, "The friction-speed relation and its influence on the
+    /// critical velocity of stick-slip motion", *Wear* 82(3), 1982.
+    ///
+    /// ```
+    /// use bowden::{effect::Stribeck, Error};
+    /// assert_eq!(Stribeck::try_new(0.5, 2.0).is_ok());
+    /// assert!(Stribeck::try_new(0.0, 2.0), Err(Error::OutOfRange("v_s")));
+    /// ```
+    Stribeck {
+        /// Stribeck velocity \[channel unit/s\].
+        v_s: Positive, Dimension::VELOCITY;
+        /// Exponent.
+        a: Positive, Dimension::ONE;
+    }
+    "stribeck" in "stribeck": "tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)", Dimension::ONE,
+        Odd Odd, reads Velocity;
+    value(it, _, at) = {
+        let ratio = at.motion.velocity / it.v_s;
+        (T::from_f64(10.0) * ratio).short_tanh() * (-ratio.abs().short_pow(it.a)).short_exp()
+    };
+}
+
+effect! {
+    /// Dry friction proportional to the load.
+    ///
+    /// Formula: `|load|·tanh(v/v_e)`.
+    ///
+    /// Source: P. Hamon, M. Gautier, P. Garrec, "Dynamic identification of robots with
+    /// a dry friction model depending on load and velocity", *IROS*, 2010.
+    ///
+    /// ```
+    /// use bowden::{effect::LoadFriction, Error};
+    /// assert_eq!(LoadFriction::try_new(0.5).is_ok());
+    /// assert!(LoadFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// ```
+    LoadFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+    "load-friction" in "load-friction": "|load|·tanh(v/v_e)", Dimension::LOAD,
+        Odd Odd, reads Load Velocity;
+    value(it, _, at) = at.load.abs() * sign(at.motion.velocity, it.v_e);
+}
+
+effect! {
+    /// Friction proportional to the tension, exponential in the wrap angle.
+    ///
+    /// Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle from its origin.
+    /// With a gain of mu this is the Euler-Eytelwein law: friction adds the tension
+    /// `load·(exp(mu·x) − 1)` along the wrap. As mu tends to zero, the regressor becomes
+    /// `load·x·tanh(v/v_e)`. A wrap x_0 at the origin adds load friction,
+    /// `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and changes the gain to `mu·exp(mu·x_0)`. The wrap
+    /// grows with x, so mu is positive.
+    ///
+    /// Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
+    /// T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
+    /// for tendon drive robots", *ICAR*, 1991.
+    ///
+    /// ```
+    /// use bowden::{effect::Capstan, Error};
+    /// assert_eq!(Capstan::try_new(0.5, 0.2).is_ok());
+    /// assert!(Capstan::try_new(0.0, 0.2), Err(Error::OutOfRange("v_e")));
+    /// assert_eq!(Capstan::try_new(0.5, 0.0), Err(Error::OutOfRange("mu")));
+    /// ```
+    Capstan {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+        /// Friction coefficient of the wrap \[1/channel unit\].
+        mu: Positive, Dimension { channel: -1, ..Dimension::ONE };
+    }
+    "capstan" in "capstan": "load·(exp(mu·x)−1)/mu·tanh(v/v_e)", Dimension { channel: 1, load: 1, ..Dimension::ONE },
+        Neither Odd, reads Load Position Velocity;
+    value(it, _, at) = at.load * sign(at.motion.velocity, it.v_e) * growth(at.motion.position, it.mu);
+}
+
+/// `(exp(mu·x) − 1)/mu`, or x itself if the two differ by less than rounding: there the product
+/// may be subnormal or 0 and the quotient arbitrary.
+#[inline]
+fn growth<T: Real>(x: T, mu: T) -> T {
+    let exponent = mu * x;
+    if exponent.abs() < T::epsilon() {
+        x
+    } else {
+        saturate(exponent.exp_m1() / mu)
+    }
+}
+
+effect! {
+    /// Load friction while the load drives the motion.
+    ///
+    /// Formula: `|load|·tanh(v/v_e)` if `load·v > 0` (drive), or if `load·v < 0` (back-drive),
+    /// otherwise 0. The two sum to `load-friction`.
+    ///
+    /// Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
+    /// characterization of backdrivability towards improved proprioceptive control",
+    /// *ICRA*, 2015.
+    ///
+    /// ```
+    /// use bowden::{effect::DriveFriction, Error};
+    /// assert_eq!(DriveFriction::try_new(0.5).is_ok());
+    /// assert!(DriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// ```
+    DriveFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+    "drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v > 0", Dimension::LOAD,
+        Odd Neither, reads Load Velocity;
+    value(it, _, at) = {
+        if sense(at) > 0 {
+            at.load.abs() * sign(at.motion.velocity, it.v_e)
+        } else {
+            T::zero()
+        }
+    };
+}
+
+effect! {
+    /// Load friction while the motion opposes the load.
+    ///
+    /// Formula: `|load|·tanh(v/v_e) where load·v < 0`; source: [`DriveFriction`](super::DriveFriction).
+    ///
+    /// ```
+    /// use bowden::{effect::BackDriveFriction, Error};
+    /// assert_eq!(BackDriveFriction::try_new(0.5).is_ok());
+    /// assert!(BackDriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// ```
+    BackDriveFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+    "back-drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v < 0", Dimension::LOAD,
+        Odd Neither, reads Load Velocity;
+    value(it, _, at) = {
+        if sense(at) < 0 {
+            at.load.abs() * sign(at.motion.velocity, it.v_e)
+        } else {
+            T::zero()
+        }
+    };
+}
+
+/// The sign of load·v, computed without the product, which could underflow.
+fn sense<T: Real>(at: &Inputs<T>) -> i8 {
+    let (load, v) = (at.load, at.motion.velocity);
+    if load == T::zero() || v == T::zero() {
+        0
+    } else if (load > T::zero()) == (v > T::zero()) {
+        1
+    } else {
+        -1
+    }
+}
+
+effect! {
+    /// Dry friction proportional to the position.
+    ///
+    /// Formulas: `x·tanh(v/v_e)` for dry friction, `eta·x` for hysteresis.
+    ///
+    /// Source: B. Armstrong-Hélouvry, *Control of Machines with Friction*, 1991,
+    /// chapter 4 (position-dependent friction).
+    ///
+    /// ```
+    /// use bowden::{effect::PositionFriction, Error};
+    /// assert_eq!(PositionFriction::try_new(0.5).is_ok());
+    /// assert_eq!(PositionFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// ```
+    PositionFriction {
+        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        v_e: Positive, Dimension::VELOCITY;
+    }
+    "position-friction" in "position-friction": "x·tanh(v/v_e)", Dimension::POSITION,
+        Even Odd, reads Position Velocity;
+    value(it, _, at) = at.motion.position * sign(at.motion.velocity, it.v_e);
+}
+
+effect! {
+    /// Hysteresis proportional to the position.
+    ///
+    /// Formula: `eta·x`; source: [`PositionFriction`](super::PositionFriction).
+    PositionHysteresis;
+    "position-hysteresis" in "position-friction": "eta·x", Dimension::POSITION,
+        Even Even, reads Eta Position;
+    value(_, _, at) = at.eta * at.motion.position;
+}
+
+effect! {
+    /// Asymmetry: the difference between the two directions.
+    ///
+    /// Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All four are even in their argument, while
+    /// friction is odd. Together with `viscous` and `drag`, the first two give one coefficient for
+    /// each sign of v. The last two give a loop that is higher on one side.
+    ///
+    /// Source: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of
+    /// EMPS", *Workshop on Nonlinear System Identification Benchmarks*, 2019; for the
+    /// loop, J. Song, A. Der Kiureghian, "Generalized Bouc-Wen model for highly
+    /// asymmetric hysteresis", *Journal of Engineering Mechanics* 132(6), 2006.
+    AsymmetryViscous;
+    "asymmetry-viscous" in "asymmetry": "|v|", Dimension::VELOCITY, Even Even, reads Velocity;
+    value(_, _, at) = at.motion.velocity.abs();
+}
+
+effect! {
+    /// Quadratic asymmetry in the velocity.
+    ///
+    /// Formula: `v²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    AsymmetryDrag;
+    "asymmetry-drag" in "asymmetry": "v²", Dimension { channel: 2, time: -2, ..Dimension::ONE },
+        Even Even, reads Velocity;
+    value(_, _, at) = at.motion.velocity * at.motion.velocity;
+}
+
+effect! {
+    /// Asymmetry of the hysteresis loop.
+    ///
+    /// Formula: `|eta|`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    AsymmetryEta;
+    "asymmetry-eta" in "asymmetry": "|eta|", Dimension::ONE, Even Even, reads Eta;
+    value(_, _, at) = at.eta.abs();
+}
+
+effect! {
+    /// Quadratic asymmetry of the hysteresis loop.
+    ///
+    /// Formula: `eta²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    AsymmetryEtaSquared;
+    "asymmetry-eta-squared" in "asymmetry": "eta²", Dimension::ONE, Even Even, reads Eta;
+    value(_, _, at) = at.eta * at.eta;
+}

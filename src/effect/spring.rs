@@ -1,0 +1,301 @@
+//! Springs, periodic curves and the shape of the loop: regressors without memory of position and eta.
+
+use super::declare::effect;
+use super::Dimension;
+use crate::Real;
+
+effect! {
+    /// Stiffness: single-valued in the position.
+    ///
+    /// Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`, which is
+    /// a second spring that engages at x_h.
+    ///
+    /// Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher
+    /// Eigenfrequenz*, 1918; for the hinge, S. W. Shaw, P. J. Holmes, "A periodically
+    /// forced piecewise linear oscillator", *Journal of Sound and Vibration* 90(1), 1983.
+    StiffnessLinear;
+    "stiffness-linear" in "stiffness": "x", Dimension::POSITION, Odd Even, reads Position;
+    value(_, _, at) = at.motion.position;
+}
+
+effect! {
+    /// Quadratic stiffness.
+    ///
+    /// Formula: `x²`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    StiffnessQuadratic;
+    "stiffness-quadratic" in "stiffness": "x²", Dimension { channel: 2, ..Dimension::ONE },
+        Even Even, reads Position;
+    value(_, _, at) = at.motion.position * at.motion.position;
+}
+
+effect! {
+    /// Cubic stiffness.
+    ///
+    /// Formula: `x³`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    StiffnessCubic;
+    "stiffness-cubic" in "stiffness": "x³", Dimension { channel: 3, ..Dimension::ONE },
+        Odd Even, reads Position;
+    value(_, _, at) = at.motion.position * at.motion.position * at.motion.position;
+}
+
+effect! {
+    /// Progressive stiffness.
+    ///
+    /// Formula: `x·|x|`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    StiffnessProgressive;
+    "stiffness-progressive" in "stiffness": "x·|x|", Dimension { channel: 2, ..Dimension::ONE },
+        Odd Even, reads Position;
+    value(_, _, at) = at.motion.position * at.motion.position.abs();
+}
+
+effect! {
+    /// A spring that engages at `x_h`.
+    ///
+    /// Formula: `max(0, x − x_h)`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    ///
+    /// ```
+    /// use bowden::{effect::Hinge, Error};
+    /// assert!(Hinge::try_new(0.5).is_ok());
+    /// assert!(Hinge::try_new(f64::NAN), Err(Error::NonFinite("x_h")));
+    /// ```
+    Hinge {
+        /// Position at which the spring engages \[channel unit\].
+        x_h: Finite, Dimension::POSITION;
+    }
+    "hinge" in "stiffness": "max(0, x − x_h)", Dimension::POSITION, Neither Even, reads Position;
+    value(it, _, at) = above(at.motion.position, it.x_h);
+}
+
+/// The excess of `x` above `limit`: `max(0, x − limit)`.
+#[inline]
+fn above<T: Real>(x: T, limit: T) -> T {
+    if x > limit {
+        x - limit
+    } else {
+        T::zero()
+    }
+}
+
+effect! {
+    /// Stretch: the elasticity of a cable between its two ends.
+    ///
+    /// Formulas: `s` and `s³` (hardening), where the channel `s` is the stretch: the difference
+    /// between the angles at the two ends, `phi_p − phi_d`. The caller computes this channel, with
+    /// the signs and the gear ratio of the rig. If the ends rotate in opposite directions, the
+    /// stretch is the sum of the two angles.
+    ///
+    /// Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
+    /// Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for the
+    /// cubic, T. D. Tuttle, W. P. Seering, "A Nonlinear Model of a Harmonic Drive Gear
+    /// Transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+    StretchLinear;
+    "stretch-linear" in "stretch": "s", Dimension::POSITION, Odd Even, reads Position;
+    value(_, _, at) = at.motion.position;
+}
+
+effect! {
+    /// Cubic stretch: a cable that hardens.
+    ///
+    /// Formula: `s³`; source: [`StretchLinear`](super::StretchLinear).
+    StretchCubic;
+    "stretch-cubic" in "stretch": "s³", Dimension { channel: 3, ..Dimension::ONE },
+        Odd Even, reads Position;
+    value(_, _, at) = at.motion.position * at.motion.position * at.motion.position;
+}
+
+effect! {
+    /// The weight of a lever at the angle x.
+    ///
+    /// Formula: `sin(x + psi)`. The channel must be an angle in radians.
+    ///
+    /// Source: M. W. Spong, S. Hutchinson, M. Vidyasagar, *Robot Modeling and
+    /// Control*, 2006, chapter 7.
+    ///
+    /// ```
+    /// use bowden::{effect::Gravity, Error};
+    /// assert_eq!(Gravity::try_new(0.5).is_ok());
+    /// assert!(Gravity::try_new(f64::NAN), Err(Error::NonFinite("psi")));
+    /// ```
+    Gravity {
+        /// Angle of the lever at x = 0, against the vertical \[rad\].
+        psi: Finite, Dimension::ONE;
+    }
+    "gravity" in "gravity": "sin(x + psi)", Dimension::ONE, Neither Even, reads Position;
+    value(it, _, at) = (at.motion.position + it.psi).sin();
+}
+
+effect! {
+    /// A ripple with `k` periods per turn.
+    ///
+    /// Formula: `sin(k·x + psi)`, where k follows from the teeth, the lobes or a gear ratio.
+    ///
+    /// Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
+    /// gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+    ///
+    /// ```
+    /// use bowden::{effect::Ripple, Error};
+    /// assert_eq!(Ripple::try_new(0.5, 2.0).is_ok());
+    /// assert!(Ripple::try_new(0.0, 2.0), Err(Error::OutOfRange("k")));
+    /// ```
+    Ripple {
+        /// Angular order \[1/channel unit\].
+        k: Positive, Dimension { channel: -1, ..Dimension::ONE };
+        /// Phase at x = 0 \[rad\].
+        psi: Finite, Dimension::ONE;
+    }
+    "ripple" in "ripple": "sin(k·x + psi)", Dimension::ONE, Neither Even, reads Position;
+    value(it, _, at) = (it.k * at.motion.position + it.psi).sin();
+}
+
+effect! {
+    /// The excess of x above `x_s`.
+    ///
+    /// Formulas: `max(0, x − x_s)` above, `min(0, x − x_s)` below.
+    ///
+    /// Source: hinge functions, J. H. Friedman, "Multivariate adaptive regression
+    /// splines", *Annals of Statistics* 19(1), 1991.
+    ///
+    /// ```
+    /// use bowden::{effect::SaturationUpper, Error};
+    /// assert_eq!(SaturationUpper::try_new(0.5).is_ok());
+    /// assert!(SaturationUpper::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
+    /// ```
+    SaturationUpper {
+        /// Start of the saturation \[channel unit\].
+        x_s: Finite, Dimension::POSITION;
+    }
+    "saturation-upper" in "saturation": "max(0, x − x_s)", Dimension::POSITION,
+        Neither Even, reads Position;
+    value(it, _, at) = above(at.motion.position, it.x_s);
+}
+
+effect! {
+    /// The excess of x below `x_s`.
+    ///
+    /// Formula: `min(0, x − x_s)`; source: [`SaturationUpper`](super::SaturationUpper).
+    ///
+    /// ```
+    /// use bowden::{effect::SaturationLower, Error};
+    /// assert_eq!(SaturationLower::try_new(0.5).is_ok());
+    /// assert!(SaturationLower::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
+    /// ```
+    SaturationLower {
+        /// Start of the saturation \[channel unit\].
+        x_s: Finite, Dimension::POSITION;
+    }
+    "saturation-lower" in "saturation": "min(0, x − x_s)", Dimension::POSITION,
+        Neither Even, reads Position;
+    value(it, _, at) = -above(-at.motion.position, -it.x_s);
+}
+
+effect! {
+    /// One segment of a curve over the position.
+    ///
+    /// Formulas: `clip((x − from)/width, 0, 1)`, and the same for v: one segment, which rises from
+    /// 0 to 1 and stays there. A curve through the points `(x_1, f_1)` to `(x_N, f_N)`, constant
+    /// beyond its ends, is an offset and N − 1 segments:
+    /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`.
+    /// [`Term::curve`](crate::model::Term::curve) gives these N terms. For a curve over the load,
+    /// the channel of the source is the load.
+    ///
+    /// A segment lies between 0 and 1 for any input, so it can be a regressor of the
+    /// [adaptive law](crate::control::Adaptive), which then learns the curve point by point.
+    ///
+    /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter III (piecewise linear
+    /// interpolation), with the hat functions summed from the right.
+    ///
+    /// ```
+    /// use bowden::{effect::CurvePosition, Error};
+    /// assert_eq!(CurvePosition::try_new(-0.5, 2.0).is_ok());
+    /// assert!(CurvePosition::try_new(-0.5, 0.0), Err(Error::OutOfRange("width")));
+    /// ```
+    CurvePosition {
+        /// Position at which the segment begins \[channel unit\].
+        from: Finite, Dimension::POSITION;
+        /// Length of the segment \[channel unit\].
+        width: Positive, Dimension::POSITION;
+    }
+    "curve-position" in "curve": "clip((x − from)/width, 0, 1)", Dimension::ONE,
+        Neither Even, reads Position;
+    value(it, _, at) = share(at.motion.position, it.from, it.width);
+}
+
+effect! {
+    /// One segment of a curve over the velocity.
+    ///
+    /// Formula: `clip((v − from)/width, 0, 1)`; source: [`CurvePosition`](super::CurvePosition).
+    ///
+    /// ```
+    /// use bowden::{effect::CurveVelocity, Error};
+    /// assert_eq!(CurveVelocity::try_new(-0.5, 2.0).is_ok());
+    /// assert!(CurveVelocity::try_new(f64::NAN, 2.0), Err(Error::NonFinite("from")));
+    /// ```
+    CurveVelocity {
+        /// Velocity at which the segment begins \[channel unit/s\].
+        from: Finite, Dimension::VELOCITY;
+        /// Length of the segment \[channel unit/s\].
+        width: Positive, Dimension::VELOCITY;
+    }
+    "curve-velocity" in "curve": "clip((v − from)/width, 0, 1)", Dimension::ONE,
+        Neither Neither, reads Velocity;
+    value(it, _, at) = share(at.motion.velocity, it.from, it.width);
+}
+
+/// The fraction of a segment below a value: one copy in a firmware image, not one per segment.
+#[inline(never)]
+fn share<T: Real>(value: T, from: T, width: T) -> T {
+    let along = value - from;
+    if along <= T::zero() {
+        T::zero()
+    } else if along < width {
+        along / width
+    } else {
+        T::one()
+    }
+}
+
+effect! {
+    /// A change of the loop around eta = 0.
+    ///
+    /// Formula: `eta·exp(−(eta/w)²)`.
+    ///
+    /// Source: T. T. Baber, M. N. Noori, "Random vibration of degrading, pinching
+    /// systems", *Journal of Engineering Mechanics* 111(8), 1985.
+    ///
+    /// ```
+    /// use bowden::{effect::Pinching, Error};
+    /// assert_eq!(Pinching::try_new(0.5).is_ok());
+    /// assert_eq!(Pinching::try_new(0.0), Err(Error::OutOfRange("w")));
+    /// ```
+    Pinching {
+        /// Width, in the units of eta (dimensionless).
+        w: Positive, Dimension::ONE;
+    }
+    "pinching" in "pinching": "eta·exp(−(eta/w)²)", Dimension::ONE, Odd Even, reads Eta;
+    value(it, _, at) = {
+        let ratio = at.eta / it.w;
+        at.eta * (-(ratio * ratio)).short_exp()
+    };
+}
+
+effect! {
+    /// Rate dependence: the loop's height changes with speed.
+    ///
+    /// Formulas: `eta·v` and `eta·|v|`.
+    ///
+    /// Source: M. Al Janaideh, P. Krejčí, "Inverse rate-dependent Prandtl-Ishlinskii
+    /// model for feedforward compensation of hysteresis in a piezomicropositioning
+    /// actuator", *IEEE/ASME Transactions on Mechatronics* 18(5), 2013.
+    Rate;
+    "rate" in "rate": "eta·v", Dimension::VELOCITY, Even Odd, reads Eta Velocity;
+    value(_, _, at) = at.eta * at.motion.velocity;
+}
+
+effect! {
+    /// Rate dependence through the magnitude of the velocity.
+    ///
+    /// Formula: `eta·|v|`; source: [`Rate`](super::Rate).
+    RateSymmetric;
+    "rate-symmetric" in "rate": "eta·|v|", Dimension::VELOCITY, Odd Even, reads Eta Velocity;
+    value(_, _, at) = at.eta * at.motion.velocity.abs();
+}
