@@ -46,33 +46,47 @@ impl Error {
 
 impl core::error::Error for Error {}
 
-/// The value of a `const` constructor, checked by the compiler.
+/// A configuration that the compiler checks, for a `static` or a `const`.
 ///
-/// A refused parameter is a compile error; the compiler's message contains the parameter's
-/// name. The configuration is stored in flash and costs nothing at start-up.
+/// The arguments are those of the constructors at run time, for `f32` or `f64`. Every configuration
+/// of this crate can be a constant, except models and what holds them. A refused parameter is a
+/// compile error; the compiler's message contains the parameter's name. The configuration is stored
+/// in flash and costs nothing at start-up.
 ///
 /// ```
 /// use bowden::constant;
 /// use bowden::control::{Fallback, Limits, Pid, PidSettings};
-/// static PI: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings::new(
+/// static PI: Pid<f32> = constant!(Pid::<f32>::try_new(PidSettings::new(
 ///     30.0,
 ///     18.0,
-///     constant!(Limits::<f32>::const_new(-20.0, 60.0)), // [N·m]
-///     0.005,                                            // longest dt [s]
-///     constant!(Fallback::<f32>::const_new(20, 0.0)),   // after 20 bad samples, [N·m]
+///     constant!(Limits::<f32>::try_new(-20.0, 60.0).with_slew(500.0)), // [N·m], [N·m/s]
+///     0.005,                                                           // longest dt [s]
+///     constant!(Fallback::<f32>::try_new(20, 0.0)),                    // after 20 bad samples, [N·m]
 /// )));
 /// assert_eq!(PI.settings().k_p, 30.0);
 /// ```
 ///
 /// ```compile_fail
 /// # use bowden::{constant, control::Limits};
-/// const REVERSED: Limits<f32> = constant!(Limits::<f32>::const_new(60.0, -20.0));
+/// const REVERSED: Limits<f32> = constant!(Limits::<f32>::try_new(60.0, -20.0));
 /// ```
 #[macro_export]
 macro_rules! constant {
-    ($checked:expr) => {
+    ($config:ident::<$($of:tt),+>::$make:ident($($arg:expr),* $(,)?) $($with:tt)*) => {
+        $crate::constant!(
+            @ $config<$($of),+>, $crate::Constant::<$config<$($of),+>>::$make($($arg),*), $($with)*
+        )
+    };
+    (@ $config:ty, $made:expr, .$with:ident($($arg:expr),* $(,)?) $($rest:tt)*) => {
+        $crate::constant!(
+            @ $config,
+            $crate::Constant::<$config>::$with($crate::constant!(@ $config, $made,), $($arg),*),
+            $($rest)*
+        )
+    };
+    (@ $config:ty, $made:expr,) => {
         const {
-            match $checked {
+            match $made {
                 Ok(it) => it,
                 Err(error) => ::core::panic!("{}", error.parameter()),
             }
@@ -107,9 +121,7 @@ pub(crate) fn is_usable<T: crate::Real>(sum: T) -> bool {
 
 /// Returns the error of a number that is not finite from the surrounding function.
 ///
-/// These three checks are the same on a generic `T: Real` and, in a `const fn`, on `f32` and
-/// `f64`. A constructor at compile time therefore has the checks of the constructor at run
-/// time.
+/// These checks work on a generic `T: Real` and, in a `const fn`, on `f32` and `f64`.
 macro_rules! must_be_finite {
     ($value:expr, $name:expr) => {
         if !$value.is_finite() {
@@ -120,9 +132,9 @@ macro_rules! must_be_finite {
 
 /// The same for a number that is not finite or not above zero.
 macro_rules! above_zero {
-    ($value:expr, $zero:expr, $name:expr) => {
+    ($value:expr, $name:expr) => {
         crate::error::must_be_finite!($value, $name);
-        if $value <= $zero {
+        if $value <= T::ZERO {
             return Err(Error::OutOfRange($name));
         }
     };
@@ -130,9 +142,9 @@ macro_rules! above_zero {
 
 /// The same for a number that is not finite or below zero.
 macro_rules! not_below_zero {
-    ($value:expr, $zero:expr, $name:expr) => {
+    ($value:expr, $name:expr) => {
         crate::error::must_be_finite!($value, $name);
-        if $value < $zero {
+        if $value < T::ZERO {
             return Err(Error::OutOfRange($name));
         }
     };

@@ -79,6 +79,7 @@ extern crate std;
 
 #[cfg(any(doc, doctest))]
 pub mod book;
+mod checked;
 pub mod control;
 pub mod effect;
 mod error;
@@ -86,11 +87,15 @@ pub mod hysteresis;
 pub mod model;
 mod real;
 pub mod signal;
-mod stored;
 pub mod transmission;
 
+pub(crate) use checked::checked;
 pub use error::Error;
 pub use real::Real;
+
+/// The constructors of a configuration at compile time: [`constant!`] calls them.
+#[doc(hidden)]
+pub struct Constant<C>(core::marker::PhantomData<C>);
 
 /// The proofs of this crate; `proofs/README.md` states how to run them.
 #[cfg(kani)]

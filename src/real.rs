@@ -23,6 +23,18 @@ macro_rules! calls {
     };
 }
 
+/// [`Real::from_f64`] under a name that a `const fn` of a constructor can have too.
+#[inline]
+pub(crate) fn of<T: Real>(x: f64) -> T {
+    T::from_f64(x)
+}
+
+/// [`Real::as_f64`], likewise.
+#[inline]
+pub(crate) fn as_f64<T: Real>(x: T) -> f64 {
+    x.as_f64()
+}
+
 /// Further float functions for the hysteresis, not part of the interface.
 pub(crate) mod sealed {
     use super::short;

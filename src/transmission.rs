@@ -87,62 +87,9 @@ pub struct Transmission<T> {
     shape: BoucWen<T>,
 }
 
-/// A transmission after its checks, for any float and for constants.
-macro_rules! transmission {
-    ($mode:expr, [$gain:ident $gain_name:literal, $kappa_eta:ident $kappa_eta_name:literal,
-     $offset:ident $offset_name:literal], $shape:ident) => {{
-        must_be_finite!($gain, $gain_name);
-        must_be_finite!($kappa_eta, $kappa_eta_name);
-        must_be_finite!($offset, $offset_name);
-        Ok(Self {
-            mode: $mode,
-            gain: $gain,
-            kappa_eta: $kappa_eta,
-            offset: $offset,
-            shape: $shape,
-        })
-    }};
-}
+crate::checked! {
+    Transmission<T>;
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl Transmission<$float> {
-            /// [`torque`](Self::torque) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`torque`](Self::torque).
-            pub const fn const_torque(
-                b: $float,
-                kappa_eta: $float,
-                t0: $float,
-                shape: BoucWen<$float>,
-            ) -> Result<Self, Error> {
-                transmission!(Mode::Torque, [b "b", kappa_eta "kappa_eta", t0 "t0"], shape)
-            }
-
-            /// [`displacement`](Self::displacement) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`displacement`](Self::displacement).
-            pub const fn const_displacement(
-                kappa_x: $float,
-                kappa_eta: $float,
-                offset: $float,
-                shape: BoucWen<$float>,
-            ) -> Result<Self, Error> {
-                transmission!(
-                    Mode::Displacement,
-                    [kappa_x "kappa_x", kappa_eta "kappa_eta", offset "offset"],
-                    shape
-                )
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Transmission<T> {
     /// Torque to torque: `tau_o = b·tau_i - kappa_eta·eta - t0`, (5)-(7).
     ///
     /// `b` is the torque ratio `1 - kappa_tau`, `kappa_eta` [N·m] is the hysteresis torque at
@@ -152,8 +99,12 @@ impl<T: Real> Transmission<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"b"`, `"kappa_eta"` or `"t0"`.
-    pub fn torque(b: T, kappa_eta: T, t0: T, shape: BoucWen<T>) -> Result<Self, Error> {
-        transmission!(Mode::Torque, [b "b", kappa_eta "kappa_eta", t0 "t0"], shape)
+    pub fn torque(b: T, kappa_eta: T, t0: T, shape: BoucWen<T>) {
+        must_be_finite!(b, "b");
+        must_be_finite!(kappa_eta, "kappa_eta");
+        must_be_finite!(t0, "t0");
+        let (mode, gain, offset) = (Mode::Torque, b, t0);
+        Ok(Transmission { mode, gain, kappa_eta, offset, shape })
     }
 
     /// Displacement to force: `F = kappa_x·x + kappa_eta·eta + offset`, (1)-(2).
@@ -164,19 +115,16 @@ impl<T: Real> Transmission<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"kappa_x"`, `"kappa_eta"` or `"offset"`.
-    pub fn displacement(
-        kappa_x: T,
-        kappa_eta: T,
-        offset: T,
-        shape: BoucWen<T>,
-    ) -> Result<Self, Error> {
-        transmission!(
-            Mode::Displacement,
-            [kappa_x "kappa_x", kappa_eta "kappa_eta", offset "offset"],
-            shape
-        )
+    pub fn displacement(kappa_x: T, kappa_eta: T, offset: T, shape: BoucWen<T>) {
+        must_be_finite!(kappa_x, "kappa_x");
+        must_be_finite!(kappa_eta, "kappa_eta");
+        must_be_finite!(offset, "offset");
+        let (mode, gain) = (Mode::Displacement, kappa_x);
+        Ok(Transmission { mode, gain, kappa_eta, offset, shape })
     }
+}
 
+impl<T: Real> Transmission<T> {
     /// Input and output quantities.
     #[inline]
     #[must_use]

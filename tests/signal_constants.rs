@@ -1,11 +1,11 @@
 //! Configurations in flash: one of each compiles, and is what the run time makes.
 #![allow(clippy::cast_possible_truncation, clippy::unnecessary_cast)]
 
-use bowden::constant;
 use bowden::hysteresis::BoucWen;
 use bowden::signal::{Biquad, Derivative, EdgeVelocity, LowPass, Plausible, Play, Ramp, Rates};
 use bowden::transmission::Transmission;
 use bowden::Error;
+use bowden::{constant, Constant};
 use proptest::prelude::*;
 use std::fmt::Debug;
 
@@ -16,36 +16,31 @@ macro_rules! statics {
             use super::*;
 
             static SHAPE: BoucWen<$float> =
-                constant!(BoucWen::<$float>::const_new(0.09582, 98.36, 3.871));
-            static CABLE: Transmission<$float> = constant!(Transmission::<$float>::const_torque(
+                constant!(BoucWen::<$float>::try_new(0.09582, 98.36, 3.871));
+            static CABLE: Transmission<$float> = constant!(Transmission::<$float>::torque(
                 0.9978, 7.004, 0.05174, SHAPE
             ));
             static SPRING: Transmission<$float> = constant!(
-                Transmission::<$float>::const_displacement(0.9978, 7.004, 0.05174, SHAPE)
+                Transmission::<$float>::displacement(0.9978, 7.004, 0.05174, SHAPE)
             );
             static DERIVATIVE: Derivative<$float> =
-                constant!(Derivative::<$float>::const_new(0.01));
-            static PLAY: Play<$float> = constant!(Play::<$float>::const_new(0.2));
-            static RAMP: Ramp<$float> = constant!(
-                constant!(Ramp::<$float>::const_new(50.0, 0.02)).const_with_longest_dt(0.005)
+                constant!(Derivative::<$float>::try_new(0.01));
+            static PLAY: Play<$float> = constant!(Play::<$float>::try_new(0.2));
+            static RAMP: Ramp<$float> = constant!(Ramp::<$float>::try_new(50.0, 0.02).with_longest_dt(0.005)
             );
-            static RATES: Rates<$float> = constant!(constant!(constant!(
-                Rates::<$float>::const_for_cutoff(5.0)
-            )
-            .const_with_period(4096.0))
-            .const_with_longest_gap(0.1));
-            static LOW_PASS: LowPass<$float> = constant!(LowPass::<$float>::const_new(0.01));
+            static RATES: Rates<$float> = constant!(Rates::<$float>::for_cutoff(5.0)
+            .with_period(4096.0)
+            .with_longest_gap(0.1));
+            static LOW_PASS: LowPass<$float> = constant!(LowPass::<$float>::try_new(0.01));
             static NOTCH: Biquad<$float> =
-                constant!(Biquad::<$float>::const_notch(35.0, 5.0, 0.001));
+                constant!(Biquad::<$float>::notch(35.0, 5.0, 0.001));
             static EDGES: EdgeVelocity<$float> =
-                constant!(constant!(EdgeVelocity::<$float>::const_new(1.0, 0.01, 0.2))
-                    .const_with_period(4096.0));
-            static SENSOR: Plausible<$float> = constant!(constant!(constant!(constant!(
-                Plausible::<$float>::const_new(-100.0, 100.0)
-            )
-            .const_with_rate(550.0))
-            .const_with_sample_period(0.01))
-            .const_with_longest_dt(0.005))
+                constant!(EdgeVelocity::<$float>::try_new(1.0, 0.01, 0.2)
+                    .with_period(4096.0));
+            static SENSOR: Plausible<$float> = constant!(Plausible::<$float>::try_new(-100.0, 100.0)
+            .with_rate(550.0)
+            .with_sample_period(0.01)
+            .with_longest_dt(0.005))
             .with_stuck_after(50);
 
             #[test]
@@ -87,30 +82,30 @@ macro_rules! statics {
                 fn any_arguments_are_judged_alike(a in any_of(), b in any_of(), c in any_of()) {
                     type F = $float;
                     let [a, b, c] = [a as F, b as F, c as F];
-                    alike(BoucWen::<F>::const_new(a, b, c), BoucWen::try_new(a, b, c));
+                    alike(Constant::<BoucWen<F>>::try_new(a, b, c), BoucWen::try_new(a, b, c));
                     alike(
-                        Transmission::<F>::const_torque(a, b, c, SHAPE),
+                        Constant::<Transmission<F>>::torque(a, b, c, SHAPE),
                         Transmission::torque(a, b, c, SHAPE),
                     );
                     alike(
-                        Transmission::<F>::const_displacement(a, b, c, SHAPE),
+                        Constant::<Transmission<F>>::displacement(a, b, c, SHAPE),
                         Transmission::displacement(a, b, c, SHAPE),
                     );
-                    alike(Derivative::<F>::const_new(a), Derivative::try_new(a));
-                    alike(Play::<F>::const_new(a), Play::try_new(a));
-                    alike(Ramp::<F>::const_new(a, b), Ramp::try_new(a, b));
-                    alike(RAMP.const_with_longest_dt(a), RAMP.with_longest_dt(a));
-                    alike(Rates::<F>::const_new(a), Rates::try_new(a));
-                    alike(Rates::<F>::const_for_cutoff(a), Rates::for_cutoff(a));
-                    alike(RATES.const_with_period(a), RATES.with_period(a));
-                    alike(RATES.const_with_longest_gap(a), RATES.with_longest_gap(a));
-                    alike(LowPass::<F>::const_new(a), LowPass::try_new(a));
-                    alike(Biquad::<F>::const_low_pass(a, b, c), Biquad::low_pass(a, b, c));
-                    alike(Biquad::<F>::const_notch(a, b, c), Biquad::notch(a, b, c));
-                    alike(EdgeVelocity::<F>::const_new(a, b, c), EdgeVelocity::try_new(a, b, c));
-                    alike(EDGES.const_with_period(a), EDGES.with_period(a));
-                    alike(SENSOR.const_with_sample_period(a), SENSOR.with_sample_period(a));
-                    alike(SENSOR.const_with_longest_dt(a), SENSOR.with_longest_dt(a));
+                    alike(Constant::<Derivative<F>>::try_new(a), Derivative::try_new(a));
+                    alike(Constant::<Play<F>>::try_new(a), Play::try_new(a));
+                    alike(Constant::<Ramp<F>>::try_new(a, b), Ramp::try_new(a, b));
+                    alike(Constant::<Ramp<F>>::with_longest_dt(RAMP, a), RAMP.with_longest_dt(a));
+                    alike(Constant::<Rates<F>>::try_new(a), Rates::try_new(a));
+                    alike(Constant::<Rates<F>>::for_cutoff(a), Rates::for_cutoff(a));
+                    alike(Constant::<Rates<F>>::with_period(RATES, a), RATES.with_period(a));
+                    alike(Constant::<Rates<F>>::with_longest_gap(RATES, a), RATES.with_longest_gap(a));
+                    alike(Constant::<LowPass<F>>::try_new(a), LowPass::try_new(a));
+                    alike(Constant::<Biquad<F>>::low_pass(a, b, c), Biquad::low_pass(a, b, c));
+                    alike(Constant::<Biquad<F>>::notch(a, b, c), Biquad::notch(a, b, c));
+                    alike(Constant::<EdgeVelocity<F>>::try_new(a, b, c), EdgeVelocity::try_new(a, b, c));
+                    alike(Constant::<EdgeVelocity<F>>::with_period(EDGES, a), EDGES.with_period(a));
+                    alike(Constant::<Plausible<F>>::with_sample_period(SENSOR, a), SENSOR.with_sample_period(a));
+                    alike(Constant::<Plausible<F>>::with_longest_dt(SENSOR, a), SENSOR.with_longest_dt(a));
                 }
             }
         }

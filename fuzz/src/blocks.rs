@@ -2,6 +2,7 @@
 
 use crate::numbers::Numbers;
 use crate::properties::control::a_relay_experiment_is_bounded_and_ends;
+use bowden::Constant;
 use bowden::control::{Relay, RelaySettings, RelayState};
 use bowden::signal::{Biquad, BiquadState, LowPass, LowPassState};
 use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
@@ -15,7 +16,7 @@ fn is_usable(sample: f32, dt: f32) -> bool {
 pub fn low_pass(from: &mut Numbers) -> Option<LowPass<f32>> {
     let time_constant: f32 = from.any()?;
     let filter = LowPass::<f32>::try_new(time_constant);
-    assert!(filter == LowPass::<f32>::const_new(time_constant));
+    assert!(filter == Constant::<LowPass<f32>>::try_new(time_constant));
     assert!(filter.is_ok() == (time_constant.is_finite() && time_constant >= 0.0));
     filter.ok()
 }
@@ -53,12 +54,12 @@ pub fn biquad(from: &mut Numbers) -> Option<Biquad<f32>> {
     let (filter, constant) = if is_notch {
         (
             Biquad::<f32>::notch(frequency, q, sample_time),
-            Biquad::<f32>::const_notch(frequency, q, sample_time),
+            Constant::<Biquad<f32>>::notch(frequency, q, sample_time),
         )
     } else {
         (
             Biquad::<f32>::low_pass(frequency, q, sample_time),
-            Biquad::<f32>::const_low_pass(frequency, q, sample_time),
+            Constant::<Biquad<f32>>::low_pass(frequency, q, sample_time),
         )
     };
     assert!(filter == constant);
@@ -96,7 +97,7 @@ pub fn biquad_steps(filter: &Biquad<f32>, state: &mut BiquadState<f32>, sample: 
 pub fn edges(from: &mut Numbers) -> Option<(EdgeVelocity<f32>, f32)> {
     let (count, time_constant, longest_gap) = (from.any()?, from.any()?, from.any()?);
     let edges = EdgeVelocity::<f32>::try_new(count, time_constant, longest_gap);
-    assert!(edges == EdgeVelocity::<f32>::const_new(count, time_constant, longest_gap));
+    assert!(edges == Constant::<EdgeVelocity<f32>>::try_new(count, time_constant, longest_gap));
     let all = [count, time_constant, longest_gap];
     assert!(edges.is_ok() == all.iter().all(|x| x.is_finite() && *x > 0.0));
     let edges = edges.ok()?;
@@ -104,7 +105,7 @@ pub fn edges(from: &mut Numbers) -> Option<(EdgeVelocity<f32>, f32)> {
         return Some((edges, count));
     };
     let wrapping = edges.with_period(period);
-    assert!(wrapping == edges.const_with_period(period));
+    assert!(wrapping == Constant::<EdgeVelocity<f32>>::with_period(edges, period));
     assert!(wrapping.is_ok() == (period.is_finite() && period > 0.0));
     Some((wrapping.unwrap_or(edges), count))
 }
@@ -173,7 +174,7 @@ pub fn relay(from: &mut Numbers) -> Option<Relay<f32>> {
         fallback: from.fallback()?,
     };
     let relay = Relay::<f32>::try_new(settings);
-    assert!(relay == Relay::<f32>::const_new(settings));
+    assert!(relay == Constant::<Relay<f32>>::try_new(settings));
     relay.ok()
 }
 

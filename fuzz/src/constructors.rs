@@ -5,6 +5,7 @@ use crate::blocks;
 use crate::numbers::Numbers;
 use crate::pid;
 use crate::properties::control::{estimates_keep_their_limit, learning_keeps_its_limit};
+use bowden::Constant;
 use bowden::control::{Adaptive, Fallback, Limits, Pid};
 use bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 use bowden::control::{IterativeLearning, IterativeLearningInput};
@@ -33,11 +34,11 @@ pub fn check(data: &[u8]) {
 fn limits(from: &mut Numbers) -> Option<()> {
     let (low, high, slew) = (from.any()?, from.any()?, from.any()?);
     let range = Limits::<f32>::try_new(low, high);
-    assert!(range == Limits::<f32>::const_new(low, high));
+    assert!(range == Constant::<Limits<f32>>::try_new(low, high));
     assert!(range.is_ok() == (low.is_finite() && high.is_finite() && low < high));
     let range = range.unwrap_or(Limits::unlimited());
     let slewed = range.with_slew(slew);
-    assert!(slewed == range.const_with_slew(slew));
+    assert!(slewed == Constant::<Limits<f32>>::with_slew(range, slew));
     assert!(slewed.is_ok() == (slew.is_finite() && slew > 0.0));
     let limits = slewed.unwrap_or(range);
     loop {
@@ -52,7 +53,7 @@ fn fallback(from: &mut Numbers) -> Option<()> {
     let (after, weight) = (u32::from(from.byte()?), u32::from(from.byte()?));
     let command: f32 = from.any()?;
     let safe = Fallback::<f32>::try_new(after, command);
-    assert!(safe == Fallback::<f32>::const_new(after, command));
+    assert!(safe == Constant::<Fallback<f32>>::try_new(after, command));
     assert!(safe.is_ok() == (after > 0 && command.is_finite()));
     let safe = safe.unwrap_or(Fallback::hold_indefinitely());
     let weighed = safe.with_weight(weight);
@@ -68,10 +69,10 @@ fn laws(from: &mut Numbers) -> Option<()> {
     loop {
         if from.flag()? {
             let settings = pid::settings(from)?;
-            assert!(Pid::<f32>::const_new(settings) == Pid::try_new(settings));
+            assert!(Constant::<Pid<f32>>::try_new(settings) == Pid::try_new(settings));
         } else {
             let settings = adaptive::settings(from)?;
-            assert!(Adaptive::<f32, 2>::const_new(settings) == Adaptive::try_new(settings));
+            assert!(Constant::<Adaptive<f32, 2>>::try_new(settings) == Adaptive::try_new(settings));
         }
     }
 }
@@ -79,10 +80,10 @@ fn laws(from: &mut Numbers) -> Option<()> {
 fn plausible(from: &mut Numbers) -> Option<()> {
     let (low, high, rate) = (from.any()?, from.any()?, from.any()?);
     let range = Plausible::<f32>::try_new(low, high);
-    assert!(range == Plausible::<f32>::const_new(low, high));
+    assert!(range == Constant::<Plausible<f32>>::try_new(low, high));
     let range = range.ok()?;
     let rated = range.with_rate(rate);
-    assert!(rated == range.const_with_rate(rate));
+    assert!(rated == Constant::<Plausible<f32>>::with_rate(range, rate));
     let is_rated = rated.is_ok();
     let rated = rated
         .unwrap_or(range)
@@ -90,12 +91,12 @@ fn plausible(from: &mut Numbers) -> Option<()> {
     let (period, longest_dt): (Option<f32>, Option<f32>) =
         (from.any_or_none()?, from.any_or_none()?);
     let sampled = period.map_or(Ok(rated), |period| rated.with_sample_period(period));
-    let constant = period.map_or(Ok(rated), |period| rated.const_with_sample_period(period));
+    let constant = period.map_or(Ok(rated), |period| Constant::<Plausible<f32>>::with_sample_period(rated, period));
     assert!(sampled == constant);
     let period = period.filter(|_| is_rated && sampled.is_ok());
     let sampled = sampled.unwrap_or(rated);
     let longest = longest_dt.map_or(Ok(sampled), |longest| sampled.with_longest_dt(longest));
-    let constant = longest_dt.map_or(Ok(sampled), |it| sampled.const_with_longest_dt(it));
+    let constant = longest_dt.map_or(Ok(sampled), |it| Constant::<Plausible<f32>>::with_longest_dt(sampled, it));
     assert!(longest == constant);
     let longest_dt = longest_dt.filter(|_| longest.is_ok()).unwrap_or(f32::MAX);
     let plausible = longest.unwrap_or(sampled);
@@ -153,15 +154,15 @@ fn rates(from: &mut Numbers) -> Option<()> {
 fn observer(from: &mut Numbers) -> Option<()> {
     let (gain, frequency, damping) = (from.any()?, from.any()?, from.any()?);
     let plant = NominalPlant::<f32>::try_new(gain, frequency, damping);
-    assert!(plant == NominalPlant::<f32>::const_new(gain, frequency, damping));
+    assert!(plant == Constant::<NominalPlant<f32>>::try_new(gain, frequency, damping));
     let (tau, limit, longest_dt) = (from.any()?, from.any()?, from.any()?);
     let plant = plant.ok()?;
     let observer = DisturbanceObserver::try_new(plant, tau, limit, longest_dt);
-    assert!(observer == DisturbanceObserver::<f32>::const_new(plant, tau, limit, longest_dt));
+    assert!(observer == Constant::<DisturbanceObserver<f32>>::try_new(plant, tau, limit, longest_dt));
     let observer = observer.ok()?;
     let latency = from.any()?;
     let late = observer.with_latency(latency);
-    assert!(late == observer.const_with_latency(latency));
+    assert!(late == Constant::<DisturbanceObserver<f32>>::with_latency(observer, latency));
     assert!(late.is_ok() == (latency.is_finite() && latency >= 0.0));
     let observer = late.unwrap_or(observer);
     let mut state = ObserverState::new();
@@ -181,11 +182,11 @@ fn learning(from: &mut Numbers) -> Option<()> {
     let (lead, half_width) = (from.byte()? % 16, from.byte()? % 16);
     let (lead, half_width) = (u16::from(lead), u16::from(half_width));
     let learning = IterativeLearning::<f32>::try_new(gain, limit, lead, half_width);
-    assert!(learning == IterativeLearning::<f32>::const_new(gain, limit, lead, half_width));
+    assert!(learning == Constant::<IterativeLearning<f32>>::try_new(gain, limit, lead, half_width));
     let share: f32 = from.any()?;
     let learning = learning.ok()?;
     let forgetful = learning.with_forgetting(share);
-    assert!(forgetful == learning.const_with_forgetting(share));
+    assert!(forgetful == Constant::<IterativeLearning<f32>>::with_forgetting(learning, share));
     assert!(forgetful.is_ok() == (0.0..=1.0).contains(&share));
     let learning = forgetful.unwrap_or(learning);
     let (stored, unfiltered) = ([from.any()?; CELLS], [from.any()?; CELLS]);

@@ -29,7 +29,7 @@
 
 use super::status::unless_finite;
 use super::{Fault, Status};
-use crate::error::{must_be_finite, not_below_zero, rarely};
+use crate::error::{above_zero, must_be_finite, not_below_zero, rarely};
 use crate::signal::confined;
 use crate::{Error, Real};
 
@@ -85,67 +85,6 @@ pub struct IterativeLearning<T> {
     forgetting: T,
 }
 
-/// The checked numbers, for any float and for constants.
-macro_rules! learning {
-    ($gain:ident, $limit:ident, $lead:ident, $half_width:ident, $zero:expr) => {{
-        must_be_finite!($gain, "gain");
-        if $gain == $zero {
-            return Err(Error::OutOfRange("gain"));
-        }
-        crate::error::above_zero!($limit, $zero, "limit");
-        Ok(Self {
-            gain: $gain,
-            limit: $limit,
-            lead: $lead,
-            half_width: $half_width,
-            forgetting: $zero,
-        })
-    }};
-}
-
-/// The checked share of forgetting, likewise.
-macro_rules! forgetting {
-    ($learning:ident, $share:ident, $zero:expr, $one:expr) => {{
-        not_below_zero!($share, $zero, "forgetting");
-        if $share > $one {
-            return Err(Error::OutOfRange("forgetting"));
-        }
-        Ok(Self {
-            forgetting: $share,
-            ..$learning
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl IterativeLearning<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(
-                gain: $float,
-                limit: $float,
-                lead: u16,
-                half_width: u16,
-            ) -> Result<Self, Error> {
-                learning!(gain, limit, lead, half_width, 0.0)
-            }
-
-            /// [`with_forgetting`](Self::with_forgetting) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_forgetting`](Self::with_forgetting).
-            pub const fn const_with_forgetting(self, share: $float) -> Result<Self, Error> {
-                forgetting!(self, share, 0.0, 1.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
 /// One sample for [`IterativeLearning`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -188,9 +127,8 @@ pub struct IterativeLearningOutput<T> {
     pub status: Status,
 }
 
-impl<T: Real> IterativeLearning<T> {
-    /// Maximum number of cells in a cycle.
-    pub const MOST_CELLS: usize = u16::MAX as usize;
+crate::checked! {
+    IterativeLearning<T>;
 
     /// Learning without forgetting. `gain` of the error \[command unit/output unit\] is not zero
     /// and has the sign of the plant's gain; `limit > 0` bounds the learned values \[command
@@ -199,8 +137,14 @@ impl<T: Real> IterativeLearning<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
-    pub fn try_new(gain: T, limit: T, lead: u16, half_width: u16) -> Result<Self, Error> {
-        learning!(gain, limit, lead, half_width, T::ZERO)
+    pub fn try_new(gain: T, limit: T, lead: u16, half_width: u16) {
+        must_be_finite!(gain, "gain");
+        if gain == T::ZERO {
+            return Err(Error::OutOfRange("gain"));
+        }
+        above_zero!(limit, "limit");
+        let forgetting = T::ZERO;
+        Ok(IterativeLearning { gain, limit, lead, half_width, forgetting })
     }
 
     /// The same learning, but each cycle removes a share (0 to 1) of each learned value.
@@ -209,9 +153,18 @@ impl<T: Real> IterativeLearning<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
-    pub fn with_forgetting(self, share: T) -> Result<Self, Error> {
-        forgetting!(self, share, T::ZERO, T::ONE)
+    pub fn with_forgetting[self learning](share: T) {
+        not_below_zero!(share, "forgetting");
+        if share > T::ONE {
+            return Err(Error::OutOfRange("forgetting"));
+        }
+        Ok(IterativeLearning { forgetting: share, ..learning })
     }
+}
+
+impl<T: Real> IterativeLearning<T> {
+    /// Maximum number of cells in a cycle.
+    pub const MOST_CELLS: usize = u16::MAX as usize;
 
     /// Gain \[command unit/output unit\].
     #[inline]
@@ -466,7 +419,7 @@ enum Moved {
     Jumped,
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     IterativeLearning<T> {
         gain: T,
         limit: T,

@@ -25,71 +25,18 @@ pub struct Limits<T> {
     slew: Option<T>,
 }
 
-/// The range after its checks, for any float and for constants.
-macro_rules! range {
-    ($low:ident, $high:ident) => {{
-        ordered!($low, $high);
-        Ok(Self {
-            low: $low,
-            high: $high,
-            slew: None,
-        })
-    }};
-}
+crate::checked! {
+    Limits<T>;
 
-/// A range with its slew-rate limit after the checks, likewise.
-macro_rules! slewed {
-    ($range:ident, $slew:ident, $zero:expr) => {{
-        above_zero!($slew, $zero, "slew");
-        Ok(Self {
-            slew: Some($slew),
-            ..$range
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl Limits<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(low: $float, high: $float) -> Result<Self, Error> {
-                range!(low, high)
-            }
-
-            /// [`with_slew`](Self::with_slew) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_slew`](Self::with_slew).
-            pub const fn const_with_slew(self, slew: $float) -> Result<Self, Error> {
-                slewed!(self, slew, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Limits<T> {
     /// The range `low..=high` \[command unit\], without a slew-rate limit.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
     /// `low < high`.
-    pub fn try_new(low: T, high: T) -> Result<Self, Error> {
-        range!(low, high)
-    }
-
-    /// Every finite command: for a simulation, not for a machine.
-    #[must_use]
-    pub const fn unlimited() -> Self {
-        Self {
-            low: T::LOWEST,
-            high: T::HIGHEST,
-            slew: None,
-        }
+    pub fn try_new(low: T, high: T) {
+        ordered!(low, high);
+        let slew = None;
+        Ok(Limits { low, high, slew })
     }
 
     /// The same range with a slew-rate limit above zero \[command unit/s\].
@@ -104,8 +51,22 @@ impl<T: Real> Limits<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
-    pub fn with_slew(self, slew: T) -> Result<Self, Error> {
-        slewed!(self, slew, T::ZERO)
+    pub fn with_slew[self limits](slew: T) {
+        above_zero!(slew, "slew");
+        let slew = Some(slew);
+        Ok(Limits { slew, ..limits })
+    }
+}
+
+impl<T: Real> Limits<T> {
+    /// Every finite command: for a simulation, not for a machine.
+    #[must_use]
+    pub const fn unlimited() -> Self {
+        Self {
+            low: T::LOWEST,
+            high: T::HIGHEST,
+            slew: None,
+        }
     }
 
     /// Lower limit of the command \[command unit\].
@@ -167,7 +128,7 @@ pub(crate) fn around<T: Real>(last: T, reach: T) -> (T, T) {
     (last - reach, last + reach)
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     Limits<T> {
         low: T,
         high: T,

@@ -15,16 +15,9 @@
 //! within the [`Limits`] for any state. Use [`signal::Plausible`](crate::signal::Plausible) in
 //! front of a controller to reject finite but implausible numbers.
 //!
-//! **In flash.** These configurations have a `const` constructor for `f32` and `f64`, which the
-//! compiler checks (see [`constant!`](crate::constant)):
-//! - every configuration in the table except the [`Compensator`],
-//! - [`Limits`], [`Fallback`], [`NominalPlant`],
-//! - every configuration of [`signal`](crate::signal), and
-//! - [`BoucWen`](crate::hysteresis::BoucWen) and
-//!   [`Transmission`](crate::transmission::Transmission).
-//!
-//! A `Compensator` is built at run time because it holds a [`Model`](crate::model::Model). The
-//! effects of a model have generic constructors, which cannot be `const`.
+//! **In flash.** [`constant!`](crate::constant) makes a checked `static` or `const` of every
+//! configuration, for `f32` and `f64`. Only a [`Compensator`] is built at run time, because it
+//! holds a [`Model`](crate::model::Model).
 //!
 //! | controller | description | equations |
 //! |---|---|---|

@@ -89,70 +89,6 @@ pub struct DisturbanceObserver<T> {
     inverse: [T; 3],
 }
 
-/// The checked numbers of the observer, for any float and for constants.
-macro_rules! observer {
-    ($plant:ident, $tau:ident, $limit:ident, $longest:ident, $zero:expr, $one:expr) => {{
-        above_zero!($tau, $zero, "time_constant");
-        let product = $plant.natural_frequency() * $tau;
-        let position = $one / $plant.gain();
-        let curvature = (position / product) / product;
-        let rate = ($plant.damping_ratio() + $plant.damping_ratio()) * (position / product);
-        if !(rate + curvature).is_finite() {
-            return Err(Error::OutOfRange("time_constant"));
-        }
-        above_zero!($limit, $zero, "limit");
-        above_zero!($longest, $zero, "longest_dt");
-        Ok(Self {
-            plant: $plant,
-            time_constant: $tau,
-            limit: $limit,
-            longest_dt: $longest,
-            latency: $zero,
-            inverse: [position, rate, curvature],
-        })
-    }};
-}
-
-/// A latency after its check, likewise.
-macro_rules! latency {
-    ($observer:ident, $latency:ident, $zero:expr) => {{
-        not_below_zero!($latency, $zero, "latency");
-        Ok(Self {
-            latency: $latency,
-            ..$observer
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl DisturbanceObserver<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(
-                plant: NominalPlant<$float>,
-                time_constant: $float,
-                limit: $float,
-                longest_dt: $float,
-            ) -> Result<Self, Error> {
-                observer!(plant, time_constant, limit, longest_dt, 0.0, 1.0)
-            }
-
-            /// [`with_latency`](Self::with_latency) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_latency`](Self::with_latency).
-            pub const fn const_with_latency(self, latency: $float) -> Result<Self, Error> {
-                latency!(self, latency, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
 /// One sample for a [`DisturbanceObserver`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -177,7 +113,9 @@ pub struct ObserverOutput<T> {
     pub status: Status,
 }
 
-impl<T: Real> DisturbanceObserver<T> {
+crate::checked! {
+    DisturbanceObserver<T>;
+
     /// An observer without latency. `time_constant > 0` is tau of Q \[s\], `limit > 0` bounds the
     /// estimate \[command unit\], and a `dt` above `longest_dt > 0` \[s\] is a bad sample.
     ///
@@ -185,13 +123,19 @@ impl<T: Real> DisturbanceObserver<T> {
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, `"limit"` or
     /// `"longest_dt"`. The name is also `"time_constant"` if `1/(alpha·(wn·tau)²)` or
     /// `2·zeta/(alpha·wn·tau)` is not finite.
-    pub fn try_new(
-        plant: NominalPlant<T>,
-        time_constant: T,
-        limit: T,
-        longest_dt: T,
-    ) -> Result<Self, Error> {
-        observer!(plant, time_constant, limit, longest_dt, T::ZERO, T::ONE)
+    pub fn try_new(plant: NominalPlant<T>, time_constant: T, limit: T, longest_dt: T) {
+        above_zero!(time_constant, "time_constant");
+        let product = plant.natural_frequency() * time_constant;
+        let position = T::ONE / plant.gain();
+        let curvature = (position / product) / product;
+        let rate = (plant.damping_ratio() + plant.damping_ratio()) * (position / product);
+        if !(rate + curvature).is_finite() {
+            return Err(Error::OutOfRange("time_constant"));
+        }
+        above_zero!(limit, "limit");
+        above_zero!(longest_dt, "longest_dt");
+        let (latency, inverse) = (T::ZERO, [position, rate, curvature]);
+        Ok(DisturbanceObserver { plant, time_constant, limit, longest_dt, latency, inverse })
     }
 
     /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
@@ -202,10 +146,13 @@ impl<T: Real> DisturbanceObserver<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"latency"`.
-    pub fn with_latency(self, latency: T) -> Result<Self, Error> {
-        latency!(self, latency, T::ZERO)
+    pub fn with_latency[self observer](latency: T) {
+        not_below_zero!(latency, "latency");
+        Ok(DisturbanceObserver { latency, ..observer })
     }
+}
 
+impl<T: Real> DisturbanceObserver<T> {
     /// The nominal plant.
     #[inline]
     #[must_use]
@@ -339,7 +286,7 @@ impl<T: Real> DisturbanceObserver<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     DisturbanceObserver<T> {
         plant: NominalPlant<T>,
         time_constant: T,

@@ -32,7 +32,7 @@ use super::status::{fault_of_dt, unless_finite};
 use super::{Applied, Fault, Output, Status};
 use crate::error::is_usable;
 use crate::signal::{clamp, wrapped, Compensated, Derivative};
-use crate::{Error, Real};
+use crate::Real;
 use state::Last;
 use step::stopped;
 
@@ -80,20 +80,9 @@ pub struct Pid<T> {
 }
 
 impl<T: Real> Pid<T> {
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
-    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
-    /// [`PidSettings`] state both.
-    pub fn try_new(settings: PidSettings<T>) -> Result<Self, Error> {
-        settings.check()?;
-        Ok(Self::checked(settings))
-    }
-
-    fn checked(settings: PidSettings<T>) -> Self {
+    fn assumed(settings: PidSettings<T>) -> Self {
         Self {
-            plain: settings.is_plain(),
+            plain: settings::is_plain(&settings),
             settings,
         }
     }
@@ -101,7 +90,7 @@ impl<T: Real> Pid<T> {
     /// The PI (15) of Nguyen et al. (2018), Table 1: `k_p` = 30, `k_i` = 18. It has no limits.
     #[must_use]
     pub fn paper_pi() -> Self {
-        Self::checked(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
+        Self::assumed(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
     }
 
     /// The PID (14) of Nguyen et al. (2018), Table 1: `k_d` = 2, filtered over 0.1 s. It has no
@@ -111,7 +100,7 @@ impl<T: Real> Pid<T> {
     /// with a filter time constant below 20 ms.
     #[must_use]
     pub fn paper_pid() -> Self {
-        Self::checked(PidSettings {
+        Self::assumed(PidSettings {
             k_d: T::from_f64(2.0),
             damping: DerivativeSource::on_error(),
             derivative_time: T::from_f64(0.1),
@@ -123,7 +112,7 @@ impl<T: Real> Pid<T> {
     /// limits.
     #[must_use]
     pub fn paper_piv() -> Self {
-        Self::checked(PidSettings {
+        Self::assumed(PidSettings {
             k_d: T::from_f64(10.0),
             damping: DerivativeSource::Velocity,
             ..Self::paper_pi().settings
@@ -136,7 +125,7 @@ impl<T: Real> Pid<T> {
     /// without this PI would attribute the effect of a higher gain to adaptation.
     #[must_use]
     pub fn matched_pi() -> Self {
-        Self::checked(PidSettings::unlimited(
+        Self::assumed(PidSettings::unlimited(
             T::from_f64(30.0),
             T::from_f64(320.0),
         ))

@@ -48,7 +48,7 @@ pub use ultimate::{PiGains, PiRule, Ultimate};
 use super::status::{fault_of_dt, unless_finite, Latch};
 use super::{Fault, Status};
 use crate::error::is_usable;
-use crate::{Error, Real};
+use crate::Real;
 use state::{Cycle, Mean};
 
 #[cfg(kani)]
@@ -187,17 +187,6 @@ pub struct RelayOutput<T> {
 }
 
 impl<T: Real> Relay<T> {
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
-    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
-    /// [`RelaySettings`] state both.
-    pub fn try_new(settings: RelaySettings<T>) -> Result<Self, Error> {
-        settings.check()?;
-        Ok(Self { settings })
-    }
-
     /// The settings of this relay.
     #[inline]
     #[must_use]

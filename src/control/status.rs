@@ -115,39 +115,9 @@ pub struct Fallback<T> {
 /// more than one sample in five stays bad.
 const WEIGHT: u32 = 4;
 
-/// A fallback after its checks, for any float and for constants.
-macro_rules! fallback {
-    ($after:ident, $command:ident) => {{
-        if $after == 0 {
-            return Err(Error::OutOfRange("after"));
-        }
-        must_be_finite!($command, "safe command");
-        Ok(Self {
-            after: $after,
-            weight: WEIGHT,
-            most: $after.saturating_mul(WEIGHT),
-            command: Some($command),
-        })
-    }};
-}
+crate::checked! {
+    Fallback<T>;
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl Fallback<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(after: u32, command: $float) -> Result<Self, Error> {
-                fallback!(after, command)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Fallback<T> {
     /// Applies the safe command \[command unit\] from the `after`-th consecutive bad sample onward.
     ///
     /// The safe command ignores the slew-rate limit, because the machine needs it at once. It is
@@ -156,8 +126,13 @@ impl<T: Real> Fallback<T> {
     /// # Errors
     /// [`Error::NonFinite`] with `"safe command"`; [`Error::OutOfRange`] with `"after"` if that is
     /// zero.
-    pub fn try_new(after: u32, command: T) -> Result<Self, Error> {
-        fallback!(after, command)
+    pub fn try_new(after: u32, command: T) {
+        if after == 0 {
+            return Err(Error::OutOfRange("after"));
+        }
+        must_be_finite!(command, "safe command");
+        let (weight, most) = (WEIGHT, after.saturating_mul(WEIGHT));
+        Ok(Fallback { after, weight, most, command: Some(command) })
     }
 
     /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
@@ -167,18 +142,16 @@ impl<T: Real> Fallback<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"`.
-    pub const fn with_weight(self, weight: u32) -> Result<Self, Error> {
+    pub fn with_weight[self fallback](weight: u32) {
         if weight == 0 {
             return Err(Error::OutOfRange("weight"));
         }
-        let most = self.after.saturating_mul(weight);
-        Ok(Self {
-            weight,
-            most,
-            ..self
-        })
+        let most = fallback.after.saturating_mul(weight);
+        Ok(Fallback { weight, most, ..fallback })
     }
+}
 
+impl<T: Real> Fallback<T> {
     /// Holds the last good command indefinitely: for a simulation, not for a machine.
     #[must_use]
     pub const fn hold_indefinitely() -> Self {
@@ -459,7 +432,7 @@ pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
     (!number.is_finite()).then_some(fault)
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     Fallback<T> {
         after: u32,
         #[serde(default = "usual")]

@@ -53,7 +53,7 @@ macro_rules! effect {
             }
         }
 
-        $crate::stored::deserialize_checked! {
+        $crate::checked::deserialize_checked! {
             $effect<T> { $($field: T,)+ } => { Self::try_new($($field),+) }
         }
 

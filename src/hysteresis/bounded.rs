@@ -21,23 +21,24 @@ pub(super) struct Constants<N> {
     pub c: N,
     pub n: N,
     /// `-1/n`.
-    root: N,
+    pub root: N,
     /// `0.6·n·(n + 1)`.
-    size: N,
+    pub size: N,
     /// Coefficients of the path from zero.
-    series: Series<N>,
+    pub series: Series<N>,
     /// The state after the path 1 from zero.
-    after_1: N,
+    pub after_1: N,
 }
 
 /// `1/(n + 1)` and `(1 + n - n²)/((2n + 1)·(n + 1)²)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Series<N> {
-    first: N,
-    second: N,
+pub(super) struct Series<N> {
+    pub first: N,
+    pub second: N,
 }
 
 impl<N: Number> Constants<N> {
+    /// Those of [`BoucWen::try_new`](super::BoucWen::try_new), with their derivatives if N has any.
     pub(super) fn of(c: N, n: N) -> Self {
         let (of, one) = (N::Float::from_f64, N::constant(N::Float::one()));
         let n1 = n + one;
@@ -54,35 +55,6 @@ impl<N: Number> Constants<N> {
         }
     }
 }
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl Constants<$float> {
-            /// [`of`](Self::of) at compile time, with the same roundings.
-            #[allow(clippy::cast_possible_truncation)]
-            pub(super) const fn const_of(c: $float, n: $float) -> Self {
-                let n1 = n + 1.0;
-                let first = 1.0 / n1;
-                let second = (n1 - n * n) / (n * 2.0 + 1.0) * first * first;
-                let below = first + second;
-                Self {
-                    c,
-                    n,
-                    root: -1.0 / n,
-                    size: n * n1 * (0.6_f64 as $float),
-                    series: Series { first, second },
-                    after_1: if below > 0.0 {
-                        1.0 / (below + 1.0)
-                    } else {
-                        1.0
-                    },
-                }
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
 
 impl<N: Number> Series<N> {
     /// `zeta` after the path p from zero, `p <= 1`: that of

@@ -1,10 +1,11 @@
 //! The shape parameters of the loop, and the step along the path.
 
-use super::bounded::{self, Constants};
+use super::bounded::{self, Constants, Series};
 use super::number::Dual;
 use super::state::{BoucWenState, Sensitivity};
 use super::{closed, law, path};
 use crate::error::{above_zero, must_be_finite};
+use crate::real::of;
 use crate::{Error, Real};
 use core::fmt;
 
@@ -65,71 +66,41 @@ impl<T: defmt::Format> defmt::Format for BoucWen<T> {
     }
 }
 
-/// The checked parameters, for any float and for constants.
-macro_rules! shape {
-    ($rho:ident, $sigma:ident, $n:ident, [$zero:expr, $half:expr, $one:expr, $two:expr, $most:expr],
-     $constants:path) => {{
-        above_zero!($rho, $zero, "rho");
-        must_be_finite!($sigma, "sigma");
-        if $sigma < $half || $sigma > $most {
-            return Err(Error::OutOfRange("sigma"));
-        }
-        must_be_finite!($n, "n");
-        if $n < $one || $n > $most {
-            return Err(Error::OutOfRange("n"));
-        }
-        Ok(Self {
-            rho: $rho,
-            sigma: $sigma,
-            constants: $constants($two * $sigma - $one, $n),
-        })
-    }};
-}
+crate::checked! {
+    BoucWen<T>;
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl BoucWen<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(rho: $float, sigma: $float, n: $float) -> Result<Self, Error> {
-                shape!(
-                    rho,
-                    sigma,
-                    n,
-                    [0.0, 0.5, 1.0, 2.0, 1e9],
-                    Constants::<$float>::const_of
-                )
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
+    fn constants[](c: T, n: T) -> Constants<T> {
+        let n1 = n + T::ONE;
+        let first = T::ONE / n1;
+        let second = (n1 - n * n) / (n * of(2.0) + T::ONE) * first * first;
+        let (root, size, below) = (-T::ONE / n, n * n1 * of(0.6), first + second);
+        let after_1 = if below > T::ZERO { T::ONE / (below + T::ONE) } else { T::ONE };
+        let series = Series { first, second };
+        Constants { c, n, root, size, series, after_1 }
+    }
 
-impl<T: Real> BoucWen<T> {
     /// Parameters with `rho > 0` [1/input unit], `sigma >= 1/2` and `n >= 1`.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name. `sigma` and `n`
     /// above 1e9 are out of range, because no loop can reveal such values.
-    pub fn try_new(rho: T, sigma: T, n: T) -> Result<Self, Error> {
-        shape!(
-            rho,
-            sigma,
-            n,
-            [
-                T::ZERO,
-                T::from_f64(0.5),
-                T::ONE,
-                T::from_f64(2.0),
-                T::from_f64(1e9)
-            ],
-            Constants::of
-        )
+    pub fn try_new(rho: T, sigma: T, n: T) {
+        above_zero!(rho, "rho");
+        must_be_finite!(sigma, "sigma");
+        if sigma < of(0.5) || sigma > of(1e9) {
+            return Err(Error::OutOfRange("sigma"));
+        }
+        must_be_finite!(n, "n");
+        if n < T::ONE || n > of(1e9) {
+            return Err(Error::OutOfRange("n"));
+        }
+        let two: T = of(2.0);
+        let constants = constants(two * sigma - T::ONE, n);
+        Ok(BoucWen { rho, sigma, constants })
     }
+}
 
+impl<T: Real> BoucWen<T> {
     /// Initial slope of eta [1/input unit].
     #[inline]
     #[must_use]

@@ -2,6 +2,7 @@
 
 use super::Compensated;
 use crate::error::above_zero;
+use crate::real::{as_f64, of};
 use crate::{Error, Real};
 
 mod prewarped;
@@ -77,7 +78,7 @@ pub struct Biquad<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-struct Design<T> {
+pub(super) struct Design<T> {
     response: Response,
     frequency: T,
     q: T,
@@ -126,101 +127,41 @@ pub struct BiquadState<T> {
     low_carry: T,
 }
 
-/// A checked filter, for any float and for constants.
-macro_rules! designed {
-    ($response:expr, $frequency:ident, $q:ident, $sample_time:ident,
-     $zero:expr, $one:expr, $half:expr, $slope:expr) => {{
-        above_zero!($frequency, $zero, "frequency");
-        above_zero!($q, $zero, "q");
-        above_zero!($sample_time, $zero, "sample_time");
-        if $frequency * $sample_time >= $half {
+crate::checked! {
+    Biquad<T>;
+
+    fn designed[](design: Design<T>) -> Result<Biquad<T>, Error> {
+        let (frequency, q, sample_time) = (design.frequency, design.q, design.sample_time);
+        above_zero!(frequency, "frequency");
+        above_zero!(q, "q");
+        above_zero!(sample_time, "sample_time");
+        if frequency * sample_time >= of(0.5) {
             return Err(Error::Inadmissible("frequency < 1/(2·sample_time)"));
         }
-        let (slope, damping) = ($slope, $one / $q);
+        let slope: T = of(prewarped::slope(as_f64(frequency), as_f64(sample_time)));
+        let damping = T::ONE / q;
         if !slope.is_finite() {
             return Err(Error::OutOfRange("frequency"));
         }
         if !damping.is_finite() {
             return Err(Error::OutOfRange("q"));
         }
-        Ok(Self {
-            design: Design {
-                response: $response,
-                frequency: $frequency,
-                q: $q,
-                sample_time: $sample_time,
-            },
-            slope,
-            damping,
-        })
-    }};
-}
+        Ok(Biquad { design, slope, damping })
+    }
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl Biquad<$float> {
-            /// [`low_pass`](Self::low_pass) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`low_pass`](Self::low_pass).
-            pub const fn const_low_pass(
-                frequency: $float,
-                q: $float,
-                sample_time: $float,
-            ) -> Result<Self, Error> {
-                Self::const_design(Response::LowPass, frequency, q, sample_time)
-            }
-
-            /// [`notch`](Self::notch) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`notch`](Self::notch).
-            pub const fn const_notch(
-                frequency: $float,
-                q: $float,
-                sample_time: $float,
-            ) -> Result<Self, Error> {
-                Self::const_design(Response::Notch, frequency, q, sample_time)
-            }
-
-            #[allow(clippy::cast_possible_truncation, clippy::cast_lossless)]
-            const fn const_design(
-                response: Response,
-                frequency: $float,
-                q: $float,
-                sample_time: $float,
-            ) -> Result<Self, Error> {
-                designed!(
-                    response,
-                    frequency,
-                    q,
-                    sample_time,
-                    0.0,
-                    1.0,
-                    0.5,
-                    prewarped::slope(frequency as f64, sample_time as f64) as $float
-                )
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Biquad<T> {
     /// A low-pass with its corner at `frequency` \[Hz\], for samples every `sample_time` \[s\].
     ///
     /// All three must be above zero, and `frequency` must be below half the sample rate. At
     /// `frequency` the gain is `q` and the phase is −90°. A `q` above `1/√2` gives a resonance.
     ///
     /// The tangent of the prewarping is computed in `f64`. On a microcontroller without `f64`
-    /// hardware, `const_low_pass` avoids that code.
+    /// hardware, [`constant!`](crate::constant) avoids that code.
     ///
     /// ```
     /// use bowden::constant;
     /// use bowden::signal::Biquad;
     /// // Butterworth at 80 Hz in a loop of 1 kHz.
-    /// static SMOOTH: Biquad<f32> = constant!(Biquad::<f32>::const_low_pass(80.0, 0.7071, 0.001));
+    /// static SMOOTH: Biquad<f32> = constant!(Biquad::<f32>::low_pass(80.0, 0.7071, 0.001));
     /// assert_eq!(SMOOTH, Biquad::low_pass(80.0, 0.7071, 0.001)?);
     /// # Ok::<(), bowden::Error>(())
     /// ```
@@ -228,8 +169,9 @@ impl<T: Real> Biquad<T> {
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"frequency"`, `"q"` or
     /// `"sample_time"`; [`Error::Inadmissible`] unless `frequency < 1/(2·sample_time)`.
-    pub fn low_pass(frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
-        Self::try_new(Response::LowPass, frequency, q, sample_time)
+    pub fn low_pass(frequency: T, q: T, sample_time: T) {
+        let response = Response::LowPass;
+        designed(Design { response, frequency, q, sample_time })
     }
 
     /// A notch at `frequency` \[Hz\], `frequency/q` \[Hz\] wide, for samples every `sample_time`
@@ -240,23 +182,13 @@ impl<T: Real> Biquad<T> {
     ///
     /// # Errors
     /// The same as [`low_pass`](Self::low_pass).
-    pub fn notch(frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
-        Self::try_new(Response::Notch, frequency, q, sample_time)
+    pub fn notch(frequency: T, q: T, sample_time: T) {
+        let response = Response::Notch;
+        designed(Design { response, frequency, q, sample_time })
     }
+}
 
-    fn try_new(response: Response, frequency: T, q: T, sample_time: T) -> Result<Self, Error> {
-        designed!(
-            response,
-            frequency,
-            q,
-            sample_time,
-            T::ZERO,
-            T::ONE,
-            T::from_f64(0.5),
-            T::from_f64(prewarped::slope(frequency.as_f64(), sample_time.as_f64()))
-        )
-    }
-
+impl<T: Real> Biquad<T> {
     /// Corner of a low-pass, or centre of a notch \[Hz\].
     #[inline]
     #[must_use]
@@ -391,6 +323,6 @@ impl<T: Real> From<Biquad<T>> for Design<T> {
 impl<T: Real> TryFrom<Design<T>> for Biquad<T> {
     type Error = Error;
     fn try_from(raw: Design<T>) -> Result<Self, Error> {
-        Self::try_new(raw.response, raw.frequency, raw.q, raw.sample_time)
+        designed(raw)
     }
 }

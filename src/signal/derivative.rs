@@ -46,41 +46,20 @@ pub struct DerivativeState<T> {
     rate: T,
 }
 
-/// The checked configuration, for any float and for constants.
-macro_rules! derivative {
-    ($time_constant:ident, $zero:expr) => {{
-        not_below_zero!($time_constant, $zero, "time_constant");
-        Ok(Self {
-            time_constant: $time_constant,
-        })
-    }};
-}
+crate::checked! {
+    Derivative<T>;
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl Derivative<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
-                derivative!(time_constant, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Derivative<T> {
     /// A derivative with `time_constant >= 0` \[s\]; zero means no filter.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
-    pub fn try_new(time_constant: T) -> Result<Self, Error> {
-        derivative!(time_constant, T::ZERO)
+    pub fn try_new(time_constant: T) {
+        not_below_zero!(time_constant, "time_constant");
+        Ok(Derivative { time_constant })
     }
+}
 
+impl<T: Real> Derivative<T> {
     /// The same for a time constant that is already checked.
     #[inline]
     pub(crate) const fn assumed(time_constant: T) -> Self {
@@ -180,7 +159,7 @@ impl<T: Real> DerivativeState<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     Derivative<T> {
         time_constant: T,
     } => {

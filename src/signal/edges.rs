@@ -118,61 +118,9 @@ pub struct EdgeVelocityState<T> {
     velocity: Option<T>,
 }
 
-/// The checked configuration, for any float and for constants.
-macro_rules! edge_velocity {
-    ($count:ident, $time_constant:ident, $longest_gap:ident, $zero:expr) => {{
-        above_zero!($count, $zero, "count");
-        above_zero!($time_constant, $zero, "time_constant");
-        above_zero!($longest_gap, $zero, "longest_gap");
-        Ok(Self {
-            count: $count,
-            time_constant: $time_constant,
-            longest_gap: $longest_gap,
-            period: None,
-        })
-    }};
-}
+crate::checked! {
+    EdgeVelocity<T>;
 
-/// The same with a period, likewise.
-macro_rules! wrapping {
-    ($edges:ident, $period:ident, $zero:expr) => {{
-        above_zero!($period, $zero, "period");
-        Ok(Self {
-            period: Some($period),
-            ..$edges
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl EdgeVelocity<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(
-                count: $float,
-                time_constant: $float,
-                longest_gap: $float,
-            ) -> Result<Self, Error> {
-                edge_velocity!(count, time_constant, longest_gap, 0.0)
-            }
-
-            /// [`with_period`](Self::with_period) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_period`](Self::with_period).
-            pub const fn const_with_period(self, period: $float) -> Result<Self, Error> {
-                wrapping!(self, period, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> EdgeVelocity<T> {
     /// Velocity from positions that move by `count` \[channel unit\] or by multiples of it.
     ///
     /// Counts that come faster than `time_constant` \[s\] are averaged. A time of `longest_gap`
@@ -181,8 +129,12 @@ impl<T: Real> EdgeVelocity<T> {
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or
     /// `"longest_gap"`.
-    pub fn try_new(count: T, time_constant: T, longest_gap: T) -> Result<Self, Error> {
-        edge_velocity!(count, time_constant, longest_gap, T::ZERO)
+    pub fn try_new(count: T, time_constant: T, longest_gap: T) {
+        above_zero!(count, "count");
+        above_zero!(time_constant, "time_constant");
+        above_zero!(longest_gap, "longest_gap");
+        let period = None;
+        Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
     /// The same configuration for positions modulo `period > 0` \[channel unit\], as from a
@@ -192,10 +144,14 @@ impl<T: Real> EdgeVelocity<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
-    pub fn with_period(self, period: T) -> Result<Self, Error> {
-        wrapping!(self, period, T::ZERO)
+    pub fn with_period[self edges](period: T) {
+        above_zero!(period, "period");
+        let period = Some(period);
+        Ok(EdgeVelocity { period, ..edges })
     }
+}
 
+impl<T: Real> EdgeVelocity<T> {
     /// The velocity \[channel unit/s\] at a `position` measured `dt` \[s\] after the last call.
     ///
     /// `dt` is the time since the last call, whether that sample was good or bad. If the distance
@@ -352,7 +308,7 @@ impl<T: Real> EdgeVelocityState<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     EdgeVelocity<T> {
         count: T,
         time_constant: T,

@@ -58,41 +58,20 @@ pub struct LowPassState<T> {
     carry: T,
 }
 
-/// The checked filter, for any float and for constants.
-macro_rules! low_pass {
-    ($time_constant:ident, $zero:expr) => {{
-        not_below_zero!($time_constant, $zero, "time_constant");
-        Ok(Self {
-            time_constant: $time_constant,
-        })
-    }};
-}
+crate::checked! {
+    LowPass<T>;
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl LowPass<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
-                low_pass!(time_constant, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> LowPass<T> {
     /// A low-pass with `time_constant >= 0` \[s\]; with zero the output is the sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
-    pub fn try_new(time_constant: T) -> Result<Self, Error> {
-        low_pass!(time_constant, T::ZERO)
+    pub fn try_new(time_constant: T) {
+        not_below_zero!(time_constant, "time_constant");
+        Ok(LowPass { time_constant })
     }
+}
 
+impl<T: Real> LowPass<T> {
     /// The time constant \[s\].
     #[inline]
     #[must_use]
@@ -168,7 +147,7 @@ impl<T: Real> LowPassState<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     LowPass<T> {
         time_constant: T,
     } => {

@@ -13,7 +13,7 @@
 //! | [`EdgeVelocity`] | velocity from an encoder with few counts per sample |
 //!
 //! Configuration and state are separate types. After construction, nothing returns an error and
-//! nothing panics. Every configuration has `const` constructors for `f32` and `f64`.
+//! nothing panics. [`constant!`](crate::constant) makes a `static` of every configuration.
 
 mod biquad;
 mod clamp;

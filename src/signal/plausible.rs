@@ -83,105 +83,18 @@ pub struct PlausibleState<T> {
     same: u32,
 }
 
-/// The checked range, for any float and for constants.
-macro_rules! range {
-    ($low:ident, $high:ident, $highest:expr) => {{
-        ordered!($low, $high);
-        Ok(Self {
-            low: $low,
-            high: $high,
-            rate: None,
-            sample_period: None,
-            stuck_after: 0,
-            longest_dt: $highest,
-        })
-    }};
-}
+crate::checked! {
+    Plausible<T>;
 
-/// A checked range with its rate, likewise.
-macro_rules! rated {
-    ($range:ident, $rate:ident, $zero:expr) => {{
-        above_zero!($rate, $zero, "rate");
-        Ok(Self {
-            rate: Some($rate),
-            ..$range
-        })
-    }};
-}
-
-/// The same for the sensor's sample period.
-macro_rules! sampled {
-    ($range:ident, $period:ident, $zero:expr) => {{
-        above_zero!($period, $zero, "sample_period");
-        Ok(Self {
-            sample_period: Some($period),
-            ..$range
-        })
-    }};
-}
-
-/// The same for the longest dt.
-macro_rules! longest {
-    ($range:ident, $longest_dt:ident, $zero:expr) => {{
-        above_zero!($longest_dt, $zero, "longest_dt");
-        Ok(Self {
-            longest_dt: $longest_dt,
-            ..$range
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl Plausible<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(low: $float, high: $float) -> Result<Self, Error> {
-                range!(low, high, <$float>::MAX)
-            }
-
-            /// [`with_rate`](Self::with_rate) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_rate`](Self::with_rate).
-            pub const fn const_with_rate(self, rate: $float) -> Result<Self, Error> {
-                rated!(self, rate, 0.0)
-            }
-
-            /// [`with_sample_period`](Self::with_sample_period) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_sample_period`](Self::with_sample_period).
-            pub const fn const_with_sample_period(
-                self,
-                sample_period: $float,
-            ) -> Result<Self, Error> {
-                sampled!(self, sample_period, 0.0)
-            }
-
-            /// [`with_longest_dt`](Self::with_longest_dt) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_longest_dt`](Self::with_longest_dt).
-            pub const fn const_with_longest_dt(self, longest_dt: $float) -> Result<Self, Error> {
-                longest!(self, longest_dt, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Plausible<T> {
     /// Samples within `low..=high` \[signal unit\], at any rate.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
     /// `low < high`.
-    pub fn try_new(low: T, high: T) -> Result<Self, Error> {
-        range!(low, high, T::HIGHEST)
+    pub fn try_new(low: T, high: T) {
+        ordered!(low, high);
+        let (rate, sample_period, stuck_after, longest_dt) = (None, None, 0, T::HIGHEST);
+        Ok(Plausible { low, high, rate, sample_period, stuck_after, longest_dt })
     }
 
     /// The same check with a rate limit: the signal moves by at most `rate` \[signal unit/s\],
@@ -209,8 +122,10 @@ impl<T: Real> Plausible<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"`.
-    pub fn with_rate(self, rate: T) -> Result<Self, Error> {
-        rated!(self, rate, T::ZERO)
+    pub fn with_rate[self sensor](rate: T) {
+        above_zero!(rate, "rate");
+        let rate = Some(rate);
+        Ok(Plausible { rate, ..sensor })
     }
 
     /// The same check for a sensor that needs at most `sample_period` \[s\] from one reading to
@@ -236,10 +151,27 @@ impl<T: Real> Plausible<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"sample_period"`.
-    pub fn with_sample_period(self, sample_period: T) -> Result<Self, Error> {
-        sampled!(self, sample_period, T::ZERO)
+    pub fn with_sample_period[self sensor](sample_period: T) {
+        above_zero!(sample_period, "sample_period");
+        let sample_period = Some(sample_period);
+        Ok(Plausible { sample_period, ..sensor })
     }
 
+    /// The same check with a longest `dt` \[s\]: a longer or unusable `dt` counts as this one.
+    ///
+    /// A wrapped counter reports a `dt` of an hour, or a negative `dt`. Any signal may have moved
+    /// anywhere in that time: the check would accept one spike and reject every true sample after
+    /// it.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
+    pub fn with_longest_dt[self sensor](longest_dt: T) {
+        above_zero!(longest_dt, "longest_dt");
+        Ok(Plausible { longest_dt, ..sensor })
+    }
+}
+
+impl<T: Real> Plausible<T> {
     /// The same check with a stuck limit: `samples` equal readings in succession mean that the
     /// sensor is stuck; with 0 this is never reported.
     ///
@@ -254,18 +186,6 @@ impl<T: Real> Plausible<T> {
             stuck_after: samples,
             ..self
         }
-    }
-
-    /// The same check with a longest `dt` \[s\]: a longer or unusable `dt` counts as this one.
-    ///
-    /// A wrapped counter reports a `dt` of an hour, or a negative `dt`. Any signal may have moved
-    /// anywhere in that time: the check would accept one spike and reject every true sample after
-    /// it.
-    ///
-    /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
-    pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
-        longest!(self, longest_dt, T::ZERO)
     }
 
     /// Checks a sample taken `dt` \[s\] after the previous one.
@@ -369,7 +289,7 @@ impl<T: Real> PlausibleState<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     Plausible<T> {
         low: T,
         high: T,

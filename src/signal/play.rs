@@ -46,45 +46,24 @@ pub struct PlayState<T> {
     output: Option<T>,
 }
 
-/// The checked configuration, for any float and for constants.
-macro_rules! play {
-    ($half_width:ident, $zero:expr) => {{
-        not_below_zero!($half_width, $zero, "half_width");
-        Ok(Self {
-            half_width: $half_width,
-        })
-    }};
-}
+crate::checked! {
+    Play<T>;
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl Play<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(half_width: $float) -> Result<Self, Error> {
-                play!(half_width, 0.0)
-            }
-        }
-    };
+    /// A play of `half_width >= 0` [input unit]; with zero the output is the input.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
+    pub fn try_new(half_width: T) {
+        not_below_zero!(half_width, "half_width");
+        Ok(Play { half_width })
+    }
 }
-constant!(f32);
-constant!(f64);
 
 impl<T: Real> Play<T> {
     /// No play: the output is the input.
     pub(crate) const NONE: Self = Self {
         half_width: T::ZERO,
     };
-
-    /// A play of `half_width >= 0` [input unit]; with zero the output is the input.
-    ///
-    /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
-    pub fn try_new(half_width: T) -> Result<Self, Error> {
-        play!(half_width, T::ZERO)
-    }
 
     /// The half-width [input unit].
     #[inline]
@@ -126,7 +105,7 @@ impl<T: Real> PlayState<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     Play<T> {
         half_width: T,
     } => {

@@ -55,61 +55,18 @@ pub struct RampState<T> {
     value_carry: T,
 }
 
-/// The checked ramp, for any float and for constants.
-macro_rules! ramp {
-    ($rate:ident, $time_constant:ident, $zero:expr, $highest:expr) => {{
-        above_zero!($rate, $zero, "rate");
-        not_below_zero!($time_constant, $zero, "time_constant");
-        Ok(Self {
-            rate: $rate,
-            time_constant: $time_constant,
-            longest_dt: $highest,
-        })
-    }};
-}
+crate::checked! {
+    Ramp<T>;
 
-/// The same with a longest dt, likewise.
-macro_rules! longest {
-    ($ramp:ident, $longest_dt:ident, $zero:expr) => {{
-        above_zero!($longest_dt, $zero, "longest_dt");
-        Ok(Self {
-            longest_dt: $longest_dt,
-            ..$ramp
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl Ramp<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(rate: $float, time_constant: $float) -> Result<Self, Error> {
-                ramp!(rate, time_constant, 0.0, <$float>::MAX)
-            }
-
-            /// [`with_longest_dt`](Self::with_longest_dt) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_longest_dt`](Self::with_longest_dt).
-            pub const fn const_with_longest_dt(self, longest_dt: $float) -> Result<Self, Error> {
-                longest!(self, longest_dt, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Ramp<T> {
     /// A ramp of `rate > 0` \[signal unit/s\] with a lag of `time_constant >= 0` \[s\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"` or `"time_constant"`.
-    pub fn try_new(rate: T, time_constant: T) -> Result<Self, Error> {
-        ramp!(rate, time_constant, T::ZERO, T::HIGHEST)
+    pub fn try_new(rate: T, time_constant: T) {
+        above_zero!(rate, "rate");
+        not_below_zero!(time_constant, "time_constant");
+        let longest_dt = T::HIGHEST;
+        Ok(Ramp { rate, time_constant, longest_dt })
     }
 
     /// The same ramp with a longest `dt` \[s\]: a longer `dt` leaves the reference unchanged;
@@ -121,10 +78,13 @@ impl<T: Real> Ramp<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
-    pub fn with_longest_dt(self, longest_dt: T) -> Result<Self, Error> {
-        longest!(self, longest_dt, T::ZERO)
+    pub fn with_longest_dt[self ramp](longest_dt: T) {
+        above_zero!(longest_dt, "longest_dt");
+        Ok(Ramp { longest_dt, ..ramp })
     }
+}
 
+impl<T: Real> Ramp<T> {
     /// The reference `dt` \[s\] later, on its path to `wanted` \[signal unit\].
     ///
     /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
@@ -193,7 +153,7 @@ impl<T: Real> RampState<T> {
     }
 }
 
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     Ramp<T> {
         rate: T,
         time_constant: T,

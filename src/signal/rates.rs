@@ -2,6 +2,7 @@
 
 use super::Motion;
 use crate::error::{above_zero, must_be_finite};
+use crate::real::of;
 use crate::{Error, Real};
 
 #[cfg(feature = "serde")]
@@ -148,95 +149,14 @@ pub struct RatesState<T> {
     age: T,
 }
 
-/// The checked rates, for any float and for constants.
-macro_rules! rates {
-    ($time_constant:ident, $zero:expr, $longest_gap:expr) => {{
-        above_zero!($time_constant, $zero, "time_constant");
-        let longest_gap = $longest_gap * $time_constant;
-        must_be_finite!(longest_gap, "time_constant");
-        Ok(Self {
-            time_constant: $time_constant,
-            longest_gap,
-            period: None,
-        })
-    }};
-}
+crate::checked! {
+    Rates<T>;
 
-/// The rates for a cut-off, likewise.
-macro_rules! cutoff {
-    ($cutoff:ident, $zero:expr, $one:expr, $corner:expr, $new:path) => {{
-        above_zero!($cutoff, $zero, "cutoff");
-        match $new($one / ($corner * $cutoff)) {
-            Ok(rates) => Ok(rates),
-            Err(_) => Err(Error::OutOfRange("cutoff")),
-        }
-    }};
-}
+    fn longest_gap[](time_constant: T) -> T {
+        let constants: T = of(LONGEST_GAP);
+        constants * time_constant
+    }
 
-/// The same with a period, likewise.
-macro_rules! wrapping {
-    ($rates:ident, $period:ident, $zero:expr) => {{
-        above_zero!($period, $zero, "period");
-        Ok(Self {
-            period: Some($period),
-            ..$rates
-        })
-    }};
-}
-
-/// The same with a longest gap, likewise.
-macro_rules! bridging {
-    ($rates:ident, $longest_gap:ident, $zero:expr) => {{
-        above_zero!($longest_gap, $zero, "longest_gap");
-        Ok(Self {
-            longest_gap: $longest_gap,
-            ..$rates
-        })
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        #[allow(clippy::cast_possible_truncation)]
-        impl Rates<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(time_constant: $float) -> Result<Self, Error> {
-                rates!(time_constant, 0.0, LONGEST_GAP as $float)
-            }
-
-            /// [`for_cutoff`](Self::for_cutoff) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`for_cutoff`](Self::for_cutoff).
-            pub const fn const_for_cutoff(cutoff: $float) -> Result<Self, Error> {
-                cutoff!(cutoff, 0.0, 1.0, CORNER as $float, Self::const_new)
-            }
-
-            /// [`with_period`](Self::with_period) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_period`](Self::with_period).
-            pub const fn const_with_period(self, period: $float) -> Result<Self, Error> {
-                wrapping!(self, period, 0.0)
-            }
-
-            /// [`with_longest_gap`](Self::with_longest_gap) at compile time.
-            ///
-            /// # Errors
-            /// The same as [`with_longest_gap`](Self::with_longest_gap).
-            pub const fn const_with_longest_gap(self, longest_gap: $float) -> Result<Self, Error> {
-                bridging!(self, longest_gap, 0.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> Rates<T> {
     /// Rates with `time_constant > 0` \[s\].
     ///
     /// The longest gap is ten time constants. A loop with a longer sample time needs
@@ -245,8 +165,12 @@ impl<T: Real> Rates<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
-    pub fn try_new(time_constant: T) -> Result<Self, Error> {
-        rates!(time_constant, T::ZERO, T::from_f64(LONGEST_GAP))
+    pub fn try_new(time_constant: T) {
+        above_zero!(time_constant, "time_constant");
+        let longest_gap = longest_gap(time_constant);
+        must_be_finite!(longest_gap, "time_constant");
+        let period = None;
+        Ok(Rates { time_constant, longest_gap, period })
     }
 
     /// Rates for a model that was fitted with the cut-off `cutoff` \[Hz\].
@@ -261,8 +185,16 @@ impl<T: Real> Rates<T> {
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also if the time constant
     /// is not a finite float.
-    pub fn for_cutoff(cutoff: T) -> Result<Self, Error> {
-        cutoff!(cutoff, T::ZERO, T::ONE, T::from_f64(CORNER), Self::try_new)
+    pub fn for_cutoff(cutoff: T) {
+        above_zero!(cutoff, "cutoff");
+        let corner: T = of(CORNER);
+        let time_constant = T::ONE / (corner * cutoff);
+        let longest_gap = longest_gap(time_constant);
+        if time_constant > T::ZERO && longest_gap.is_finite() {
+            let period = None;
+            return Ok(Rates { time_constant, longest_gap, period });
+        }
+        Err(Error::OutOfRange("cutoff"))
     }
 
     /// The same rates for positions modulo `period > 0` \[channel unit\], as from a counter.
@@ -274,8 +206,10 @@ impl<T: Real> Rates<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
-    pub fn with_period(self, period: T) -> Result<Self, Error> {
-        wrapping!(self, period, T::ZERO)
+    pub fn with_period[self rates](period: T) {
+        above_zero!(period, "period");
+        let period = Some(period);
+        Ok(Rates { period, ..rates })
     }
 
     /// The same rates with another longest gap \[s\], above zero.
@@ -284,10 +218,13 @@ impl<T: Real> Rates<T> {
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_gap"`.
-    pub fn with_longest_gap(self, longest_gap: T) -> Result<Self, Error> {
-        bridging!(self, longest_gap, T::ZERO)
+    pub fn with_longest_gap[self rates](longest_gap: T) {
+        above_zero!(longest_gap, "longest_gap");
+        Ok(Rates { longest_gap, ..rates })
     }
+}
 
+impl<T: Real> Rates<T> {
     /// The time constant \[s\]: the delay of the velocity, and half the delay of the
     /// acceleration.
     #[inline]

@@ -324,14 +324,13 @@ fn what_cannot_be_is_refused_by_name() {
 
 #[test]
 fn it_can_live_in_flash() {
-    static OBSERVER: DisturbanceObserver<f32> =
-        constant!(constant!(DisturbanceObserver::<f32>::const_new(
-            constant!(NominalPlant::<f32>::const_new(0.6, 25.5, 0.265)),
-            0.0159,
-            30.0,
-            0.005,
-        ))
-        .const_with_latency(0.003));
+    static OBSERVER: DisturbanceObserver<f32> = constant!(DisturbanceObserver::<f32>::try_new(
+        constant!(NominalPlant::<f32>::try_new(0.6, 25.5, 0.265)),
+        0.0159,
+        30.0,
+        0.005,
+    )
+    .with_latency(0.003));
     let same = DisturbanceObserver::try_new(
         NominalPlant::try_new(0.6_f32, 25.5, 0.265).unwrap(),
         0.0159,

@@ -7,6 +7,7 @@ use bowden::control::{
     Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
 };
 use bowden::signal::{Implausible, Plausible, PlausibleState, Ramp, RampState};
+use bowden::Constant;
 
 #[test]
 fn a_reset_encoder_does_not_move_the_estimates() {
@@ -142,24 +143,23 @@ fn a_reference_ramp_keeps_its_rate_and_never_passes_what_was_wanted() {
 }
 
 /// Range, longest dt \[s\] and safe command of a drive, in flash.
-const RANGE: Limits<f32> =
-    constant!(constant!(Limits::<f32>::const_new(-20.0, 60.0)).const_with_slew(2000.0));
-const SAFE: Fallback<f32> = constant!(Fallback::<f32>::const_new(20, 0.0));
-static PI: Pid<f32> = constant!(Pid::<f32>::const_new(PidSettings::new(
+const RANGE: Limits<f32> = constant!(Limits::<f32>::try_new(-20.0, 60.0).with_slew(2000.0));
+const SAFE: Fallback<f32> = constant!(Fallback::<f32>::try_new(20, 0.0));
+static PI: Pid<f32> = constant!(Pid::<f32>::try_new(PidSettings::new(
     30.0, 18.0, RANGE, 0.005, SAFE
 )));
-static PI_64: Pid<f64> = constant!(Pid::<f64>::const_new(PidSettings::new(
+static PI_64: Pid<f64> = constant!(Pid::<f64>::try_new(PidSettings::new(
     30.0,
     18.0,
-    constant!(Limits::<f64>::const_new(-20.0, 60.0)),
+    constant!(Limits::<f64>::try_new(-20.0, 60.0)),
     0.005,
-    constant!(Fallback::<f64>::const_new(20, 0.0)),
+    constant!(Fallback::<f64>::try_new(20, 0.0)),
 )));
 const LAG: Form<f32> = Form::FirstOrder {
     step: 0.001,
     plant_gain: 1.0,
 };
-static LAW: Adaptive<f32, 2> = constant!(Adaptive::<f32, 2>::const_new(AdaptiveSettings {
+static LAW: Adaptive<f32, 2> = constant!(Adaptive::<f32, 2>::try_new(AdaptiveSettings {
     beta: Estimator::fixed(1.0)
         .within(0.9, 1.1)
         .adapting(2.5e-4, 0.01),
@@ -168,7 +168,7 @@ static LAW: Adaptive<f32, 2> = constant!(Adaptive::<f32, 2>::const_new(AdaptiveS
     ..AdaptiveSettings::new(LAG, 24.0, 8.0, 0.2, RANGE, 0.005, SAFE)
 }));
 static LAW_64: Adaptive<f64, 0> =
-    constant!(Adaptive::<f64, 0>::const_new(AdaptiveSettings::unlimited(
+    constant!(Adaptive::<f64, 0>::try_new(AdaptiveSettings::unlimited(
         Form::AsPublished {
             time_constant: 0.005
         },
@@ -176,8 +176,7 @@ static LAW_64: Adaptive<f64, 0> =
         8.0,
         0.05
     )));
-static SENSOR: Plausible<f32> =
-    constant!(constant!(Plausible::<f32>::const_new(-200.0, 200.0)).const_with_rate(1e5));
+static SENSOR: Plausible<f32> = constant!(Plausible::<f32>::try_new(-200.0, 200.0).with_rate(1e5));
 
 #[test]
 fn a_configuration_in_flash_is_the_one_that_is_checked_at_run_time() {
@@ -199,20 +198,23 @@ fn a_configuration_in_flash_is_the_one_that_is_checked_at_run_time() {
 fn a_constant_is_refused_with_the_words_of_the_run_time() {
     let nan = f32::NAN;
     assert_eq!(
-        Limits::<f32>::const_new(1.0, 0.0),
+        Constant::<Limits<f32>>::try_new(1.0, 0.0),
         Limits::try_new(1.0_f32, 0.0)
     );
     assert_eq!(
-        Limits::<f32>::const_new(nan, 0.0),
+        Constant::<Limits<f32>>::try_new(nan, 0.0),
         Limits::try_new(nan, 0.0)
     );
-    assert_eq!(RANGE.const_with_slew(0.0), RANGE.with_slew(0.0));
     assert_eq!(
-        Fallback::<f32>::const_new(0, 0.0),
+        Constant::<Limits<f32>>::with_slew(RANGE, 0.0),
+        RANGE.with_slew(0.0)
+    );
+    assert_eq!(
+        Constant::<Fallback<f32>>::try_new(0, 0.0),
         Fallback::try_new(0, 0.0_f32)
     );
     assert_eq!(
-        Fallback::<f32>::const_new(1, nan),
+        Constant::<Fallback<f32>>::try_new(1, nan),
         Fallback::try_new(1, nan)
     );
     let plain = PidSettings::unlimited(30.0_f32, 18.0);
@@ -233,7 +235,7 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
             ..plain
         },
     ] {
-        let refused = Pid::<f32>::const_new(settings);
+        let refused = Constant::<Pid<f32>>::try_new(settings);
         assert!(refused.is_err());
         assert_eq!(refused, Pid::try_new(settings));
     }
@@ -261,7 +263,7 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
             ..law
         },
     ] {
-        let refused = Adaptive::<f32, 2>::const_new(settings);
+        let refused = Constant::<Adaptive<f32, 2>>::try_new(settings);
         assert!(refused.is_err());
         assert_eq!(refused, Adaptive::try_new(settings));
     }

@@ -42,9 +42,9 @@ const fn settings<const N: usize>(
             24.0,
             8.0,
             0.1,
-            constant!(Limits::<f32>::const_new(-20.0, 60.0)),
+            constant!(Limits::<f32>::try_new(-20.0, 60.0)),
             0.005,
-            constant!(Fallback::<f32>::const_new(20, 0.0)),
+            constant!(Fallback::<f32>::try_new(20, 0.0)),
         )
     }
 }
@@ -113,7 +113,7 @@ macro_rules! laws {
 
             impl $constant {
                 const LAW: Adaptive<f32, $n> =
-                    constant!(Adaptive::<f32, $n>::const_new(settings($form, SmoothSign::$sign)));
+                    constant!(Adaptive::<f32, $n>::try_new(settings($form, SmoothSign::$sign)));
             }
 
             impl Case for $constant {

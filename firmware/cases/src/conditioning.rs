@@ -8,11 +8,11 @@ use bowden::Error;
 use core::hint::black_box;
 
 /// The corner at 80 Hz.
-const SMOOTH: LowPass<f32> = constant!(LowPass::<f32>::const_new(0.002));
+const SMOOTH: LowPass<f32> = constant!(LowPass::<f32>::try_new(0.002));
 /// A resonance at 35 Hz, 7 Hz wide, at 1 kHz.
-const NOTCH: Biquad<f32> = constant!(Biquad::<f32>::const_notch(35.0, 5.0, 0.001));
+const NOTCH: Biquad<f32> = constant!(Biquad::<f32>::notch(35.0, 5.0, 0.001));
 /// An encoder of 1024 counts a turn \[rad\].
-const EDGES: EdgeVelocity<f32> = constant!(EdgeVelocity::<f32>::const_new(COUNT, 0.01, 0.5));
+const EDGES: EdgeVelocity<f32> = constant!(EdgeVelocity::<f32>::try_new(COUNT, 0.01, 0.5));
 const COUNT: f32 = core::f32::consts::TAU / 1024.0;
 
 /// The first-order low-pass.

@@ -11,7 +11,7 @@ const CELLS: usize = 250;
 
 /// Two cells ahead, a filter over five.
 const LEARNING: IterativeLearning<f32> =
-    constant!(IterativeLearning::<f32>::const_new(4.0, 30.0, 2, 2));
+    constant!(IterativeLearning::<f32>::try_new(4.0, 30.0, 2, 2));
 
 /// What was learned, and where in the cycle the last sample was.
 #[derive(Debug)]

@@ -8,13 +8,13 @@ use core::hint::black_box;
 
 /// Q of 10 Hz on the reference rig's drive, 3 ms late.
 const OBSERVER: DisturbanceObserver<f32> =
-    constant!(constant!(DisturbanceObserver::<f32>::const_new(
-        constant!(NominalPlant::<f32>::const_new(0.6, 25.5, 0.265)),
+    constant!(DisturbanceObserver::<f32>::try_new(
+        constant!(NominalPlant::<f32>::try_new(0.6, 25.5, 0.265)),
         0.0159,
         30.0,
         0.005,
-    ))
-    .const_with_latency(0.003));
+    )
+    .with_latency(0.003));
 
 /// The reference stands for the command that went out.
 fn step(

@@ -15,9 +15,9 @@ const PI: PidSettings<f32> = PidSettings {
     ..PidSettings::new(
         3.0,
         18.0,
-        constant!(Limits::<f32>::const_new(-20.0, 60.0)),
+        constant!(Limits::<f32>::try_new(-20.0, 60.0)),
         0.005,
-        constant!(Fallback::<f32>::const_new(20, 0.0)),
+        constant!(Fallback::<f32>::try_new(20, 0.0)),
     )
 };
 
@@ -73,7 +73,7 @@ macro_rules! cases {
         pub struct $constant(PidState<f32>);
 
         impl $constant {
-            const CONTROLLER: Controller<f32> = constant!(Controller::<f32>::const_new($settings));
+            const CONTROLLER: Controller<f32> = constant!(Controller::<f32>::try_new($settings));
         }
 
         impl Case for $constant {

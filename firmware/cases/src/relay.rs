@@ -19,8 +19,8 @@ const RELAY: RelaySettings<f32> = RelaySettings {
     agreement: 0.5,
     longest_time: 20.0,
     longest_dt: 0.005,
-    limits: constant!(Limits::<f32>::const_new(-20.0, 60.0)),
-    fallback: constant!(Fallback::<f32>::const_new(20, 0.0)),
+    limits: constant!(Limits::<f32>::try_new(-20.0, 60.0)),
+    fallback: constant!(Fallback::<f32>::try_new(20, 0.0)),
 };
 
 /// The compiler knows none of its settings.

@@ -10,8 +10,7 @@ mod relay;
 
 use crate::{any, never_panics};
 use bowden::control::{
-    Adaptive, AdaptiveSettings, Controller, Fallback, Limits, LoopSample, Pid, PidSettings,
-    PidState, Status,
+    Controller, Fallback, Limits, LoopSample, Pid, PidState, Status,
 };
 use bowden::Real;
 use std::hint::black_box;
@@ -67,7 +66,6 @@ pub fn all<T: Real>() -> Option<()> {
         error_parameter,
         black_box(bowden::Error::Capacity("terms")).parameter()
     );
-    constants();
 
     pid::all::<T>()?;
     relay::all::<T>()?;
@@ -75,29 +73,4 @@ pub fn all<T: Real>() -> Option<()> {
     learning::all::<T>()?;
     adaptive::all::<T>()?;
     compensator::all::<T>()
-}
-
-/// The constructors of constants, which are functions too.
-fn constants() {
-    let (low, high) = (any::<f32>(), any::<f32>());
-    never_panics!(
-        control_limits_const_new,
-        Limits::<f32>::const_new(low, high)
-    );
-    let limits = black_box(Limits::<f32>::unlimited());
-    never_panics!(control_limits_const_with_slew, limits.const_with_slew(low));
-    never_panics!(
-        control_status_const_new,
-        Fallback::<f32>::const_new(black_box(3), low)
-    );
-    let settings = black_box(PidSettings::unlimited(low, high));
-    never_panics!(
-        control_pid_settings_const_new,
-        Pid::<f32>::const_new(settings)
-    );
-    let settings = black_box(AdaptiveSettings::<f32, 2>::paper());
-    never_panics!(
-        control_adaptive_settings_const_new,
-        Adaptive::<f32, 2>::const_new(settings)
-    );
 }

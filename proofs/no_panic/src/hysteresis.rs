@@ -17,10 +17,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(hysteresis_state_start, Sensitivity::<T>::start(any()));
 
     never_panics!(
-        hysteresis_shape_const_new,
-        BoucWen::<f32>::const_new(any(), any(), any())
-    );
-    never_panics!(
         hysteresis_shape_try_new,
         BoucWen::<T>::try_new(any(), any(), any())
     );

@@ -16,23 +16,6 @@ pub fn all<T: Real>() -> Option<()> {
         signal_plausible_try_new,
         Plausible::<T>::try_new(any(), any())
     );
-    never_panics!(
-        signal_plausible_const_new,
-        Plausible::<f32>::const_new(any(), any())
-    );
-    let single = black_box(Plausible::<f32>::try_new(-any::<f32>(), any())).ok()?;
-    never_panics!(
-        signal_plausible_const_with_rate,
-        single.const_with_rate(any())
-    );
-    never_panics!(
-        signal_plausible_const_with_sample_period,
-        single.const_with_sample_period(any())
-    );
-    never_panics!(
-        signal_plausible_const_with_longest_dt,
-        single.const_with_longest_dt(any())
-    );
     let plausible = black_box(Plausible::<T>::try_new(any(), any())).ok()?;
     never_panics!(signal_plausible_with_rate, plausible.with_rate(any()));
     let plausible = black_box(plausible.with_rate(any())).ok()?;
@@ -57,12 +40,6 @@ pub fn all<T: Real>() -> Option<()> {
     );
     never_panics!(signal_plausible_last, state.last());
 
-    never_panics!(signal_ramp_const_new, Ramp::<f32>::const_new(any(), any()));
-    let single = black_box(Ramp::<f32>::try_new(any(), any())).ok()?;
-    never_panics!(
-        signal_ramp_const_with_longest_dt,
-        single.const_with_longest_dt(any())
-    );
     never_panics!(signal_ramp_try_new, Ramp::<T>::try_new(any(), any()));
     let ramp = black_box(Ramp::<T>::try_new(any(), any())).ok()?;
     never_panics!(signal_ramp_with_longest_dt, ramp.with_longest_dt(any()));
@@ -71,7 +48,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_ramp_step, ramp.step(&mut state, any(), any()));
     never_panics!(signal_ramp_value, state.value());
 
-    never_panics!(signal_play_const_new, Play::<f32>::const_new(any()));
     never_panics!(signal_play_try_new, Play::<T>::try_new(any()));
     let play = black_box(Play::<T>::try_new(any())).ok()?;
     never_panics!(signal_play_new, PlayState::<T>::new());
@@ -80,10 +56,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_play_step, play.step(&mut state, any()));
     never_panics!(signal_play_output, state.output());
 
-    never_panics!(
-        signal_derivative_const_new,
-        Derivative::<f32>::const_new(any())
-    );
     never_panics!(signal_derivative_try_new, Derivative::<T>::try_new(any()));
     let rate = black_box(Derivative::<T>::try_new(any())).ok()?;
     never_panics!(signal_derivative_new, DerivativeState::<T>::new());
@@ -92,20 +64,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_derivative_step, rate.step(&mut state, any(), any()));
     never_panics!(signal_derivative_rate, state.rate());
 
-    never_panics!(signal_rates_const_new, Rates::<f32>::const_new(any()));
-    never_panics!(
-        signal_rates_const_for_cutoff,
-        Rates::<f32>::const_for_cutoff(any())
-    );
-    let single = black_box(Rates::<f32>::try_new(any())).ok()?;
-    never_panics!(
-        signal_rates_const_with_period,
-        single.const_with_period(any())
-    );
-    never_panics!(
-        signal_rates_const_with_longest_gap,
-        single.const_with_longest_gap(any())
-    );
     never_panics!(signal_rates_try_new, Rates::<T>::try_new(any()));
     never_panics!(signal_rates_for_cutoff, Rates::<T>::for_cutoff(any()));
     let rates = black_box(Rates::<T>::try_new(any())).ok()?;
@@ -125,7 +83,6 @@ pub fn all<T: Real>() -> Option<()> {
 }
 
 fn filters<T: Real>() -> Option<()> {
-    never_panics!(signal_low_pass_const_new, LowPass::<f32>::const_new(any()));
     never_panics!(signal_low_pass_try_new, LowPass::<T>::try_new(any()));
     let low_pass = black_box(LowPass::<T>::try_new(any())).ok()?;
     never_panics!(signal_low_pass_time_constant, low_pass.time_constant());
@@ -138,14 +95,6 @@ fn filters<T: Real>() -> Option<()> {
     );
     never_panics!(signal_low_pass_value, state.value());
 
-    never_panics!(
-        signal_biquad_const_low_pass,
-        Biquad::<f32>::const_low_pass(any(), any(), any())
-    );
-    never_panics!(
-        signal_biquad_const_notch,
-        Biquad::<f32>::const_notch(any(), any(), any())
-    );
     never_panics!(
         signal_biquad_low_pass,
         Biquad::<T>::low_pass(any(), any(), any())
@@ -164,15 +113,6 @@ fn filters<T: Real>() -> Option<()> {
 }
 
 fn edges<T: Real>() -> Option<()> {
-    never_panics!(
-        signal_edges_const_new,
-        EdgeVelocity::<f32>::const_new(any(), any(), any())
-    );
-    let single = black_box(EdgeVelocity::<f32>::try_new(any(), any(), any())).ok()?;
-    never_panics!(
-        signal_edges_const_with_period,
-        single.const_with_period(any())
-    );
     never_panics!(
         signal_edges_try_new,
         EdgeVelocity::<T>::try_new(any(), any(), any())

@@ -22,15 +22,6 @@ pub fn all<T: Real>() -> Option<()> {
         transmission_displacement,
         Transmission::displacement(any(), any(), any(), shape)
     );
-    let single = black_box(BoucWen::<f32>::try_new(any(), any(), any())).ok()?;
-    never_panics!(
-        transmission_const_torque,
-        Transmission::<f32>::const_torque(any(), any(), any(), single)
-    );
-    never_panics!(
-        transmission_const_displacement,
-        Transmission::<f32>::const_displacement(any(), any(), any(), single)
-    );
     let cable = transmission::<T>()?;
     let mut state = black_box(BoucWenState::new());
     never_panics!(transmission_mode, cable.mode());

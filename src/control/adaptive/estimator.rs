@@ -195,33 +195,6 @@ impl<T: Real> Default for Estimator<T> {
     }
 }
 
-/// Every check of an estimator, for any float and for constants; `names` are those of its
-/// fields.
-macro_rules! checks {
-    ($estimator:expr, $names:expr, $T:ty) => {{
-        let (it, names, zero) = (&$estimator, &$names, <$T as crate::Real>::ZERO);
-        must_be_finite!(it.low, names.low);
-        must_be_finite!(it.high, names.high);
-        must_be_finite!(it.prior, names.prior);
-        if it.low > it.high {
-            return Err(Error::OutOfRange(names.low));
-        }
-        must_be_finite!(it.initial, names.initial);
-        if it.initial < it.low || it.initial > it.high {
-            return Err(Error::OutOfRange(names.initial));
-        }
-        not_below_zero!(it.gain, zero, names.gain);
-        if it.gain > zero && it.low == it.high {
-            return Err(Error::Inadmissible(names.fixed));
-        }
-        not_below_zero!(it.leakage.rate(), zero, names.leakage);
-        if let Leakage::Switching { bound, .. } = it.leakage {
-            above_zero!(bound, zero, names.bound);
-        }
-    }};
-}
-pub(super) use checks;
-
 /// Names of an estimator's fields in an error.
 pub(super) struct Names {
     pub(super) initial: &'static str,

@@ -75,23 +75,9 @@ pub struct Adaptive<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
-    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
-    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
-    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
-    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
-    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
-    pub fn try_new(settings: AdaptiveSettings<T, N>) -> Result<Self, Error> {
-        settings.check()?;
-        Ok(Self::checked(settings))
-    }
-
-    fn checked(settings: AdaptiveSettings<T, N>) -> Self {
+    fn assumed(settings: AdaptiveSettings<T, N>) -> Self {
         Self {
-            longest: settings.longest(),
+            longest: settings::longest(&settings),
             settings,
         }
     }
@@ -149,7 +135,7 @@ impl<T: Real> Adaptive<T, 2> {
     /// The law with Table 2 of Nguyen et al. (2018): [`AdaptiveSettings::paper`].
     #[must_use]
     pub fn paper() -> Self {
-        Self::checked(AdaptiveSettings::paper())
+        Self::assumed(AdaptiveSettings::paper())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Settings of the law, and the conditions on them.
 
-use super::estimator::{self, BETA, DELTA, THETA};
+use super::estimator::{Names, BETA, DELTA, THETA};
 use super::{Adaptive, Estimator, Leakage, SmoothSign};
 use crate::control::status::OUTSIDE;
 use crate::control::{Fallback, Limits};
@@ -136,56 +136,80 @@ fn all_hold<const N: usize>() -> [OnMissing; N] {
     [OnMissing::Hold; N]
 }
 
-/// The largest step of the first-order form, for any float and for constants.
-macro_rules! largest_step {
-    ($settings:ident, $plant_gain:ident, $T:ty) => {{
-        let (s, one) = ($settings, <$T as Real>::ONE);
-        let steepest = s.gain + s.delta.high / s.epsilon;
-        let loop_gain = $plant_gain * s.beta.high * steepest;
+crate::checked! {
+    Adaptive<T, N>;
+
+    fn largest_step[, const N: usize](s: &AdaptiveSettings<T, N>, plant_gain: T) -> T {
+        let loop_gain = plant_gain * s.beta.high * (s.gain + s.delta.high / s.epsilon);
         // Written so that an overflow gives a largest step of zero.
-        if loop_gain > one {
-            one / (s.lambda * loop_gain)
+        if loop_gain > T::ONE {
+            T::ONE / (s.lambda * loop_gain)
         } else {
-            one / s.lambda
+            T::ONE / s.lambda
         }
-    }};
-}
+    }
 
-/// The longest step that a law accepts, likewise.
-macro_rules! longest {
-    ($settings:ident, $T:ty) => {{
-        let s = $settings;
+    fn check[](it: &Estimator<T>, names: &Names) -> Result<(), Error> {
+        must_be_finite!(it.low, names.low);
+        must_be_finite!(it.high, names.high);
+        must_be_finite!(it.prior, names.prior);
+        if it.low > it.high {
+            return Err(Error::OutOfRange(names.low));
+        }
+        must_be_finite!(it.initial, names.initial);
+        if it.initial < it.low || it.initial > it.high {
+            return Err(Error::OutOfRange(names.initial));
+        }
+        not_below_zero!(it.gain, names.gain);
+        if it.gain > T::ZERO && it.low == it.high {
+            return Err(Error::Inadmissible(names.fixed));
+        }
+        not_below_zero!(it.leakage.rate(), names.leakage);
+        if let Leakage::Switching { bound, .. } = it.leakage {
+            above_zero!(bound, names.bound);
+        }
+        Ok(())
+    }
+
+    fn longest[, const N: usize](s: &AdaptiveSettings<T, N>) -> T {
         match s.form {
-            Form::FirstOrder { plant_gain, .. } => {
-                let largest: $T = largest_step!(s, plant_gain, $T);
-                if largest < s.longest_dt {
-                    largest
-                } else {
-                    s.longest_dt
-                }
+            Form::FirstOrder { plant_gain, .. } if largest_step(s, plant_gain) < s.longest_dt => {
+                largest_step(s, plant_gain)
             }
-            Form::AsPublished { .. } => s.longest_dt,
+            _ => s.longest_dt,
         }
-    }};
-}
+    }
 
-/// Every check of the settings, for any float and for constants.
-macro_rules! checks {
-    ($settings:ident, $T:ty) => {{
-        let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
-        above_zero!(s.gain, zero, "gain");
-        above_zero!(s.lambda, zero, "lambda");
-        above_zero!(s.epsilon, zero, "epsilon");
-        above_zero!(s.z_limit, zero, "z_limit");
-        estimator::checks!(s.beta, BETA, $T);
-        estimator::checks!(s.delta, DELTA, $T);
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
+    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
+    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
+    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
+    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
+    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
+    pub fn try_new(settings: AdaptiveSettings<T, N>) {
+        let s = &settings;
+        above_zero!(s.gain, "gain");
+        above_zero!(s.lambda, "lambda");
+        above_zero!(s.epsilon, "epsilon");
+        above_zero!(s.z_limit, "z_limit");
+        if let Err(error) = check(&s.beta, &BETA) {
+            return Err(error);
+        }
+        if let Err(error) = check(&s.delta, &DELTA) {
+            return Err(error);
+        }
         // A `for` is not constant.
         let mut i = 0;
         while i < N {
-            estimator::checks!(s.theta[i], THETA, $T);
+            if let Err(error) = check(&s.theta[i], &THETA) {
+                return Err(error);
+            }
             i += 1;
         }
-        above_zero!(s.longest_dt, zero, "longest_dt");
+        above_zero!(s.longest_dt, "longest_dt");
         if let Some(safe) = s.fallback.command() {
             if safe < s.limits.low() || safe > s.limits.high() {
                 return Err(Error::Inadmissible(OUTSIDE));
@@ -193,21 +217,21 @@ macro_rules! checks {
         }
         match s.form {
             Form::AsPublished { time_constant } => {
-                not_below_zero!(time_constant, zero, "time_constant");
+                not_below_zero!(time_constant, "time_constant");
             }
             Form::FirstOrder { step, plant_gain } => {
-                above_zero!(step, zero, "step");
-                above_zero!(plant_gain, zero, "plant_gain");
-                if s.beta.low <= zero {
+                above_zero!(step, "step");
+                above_zero!(plant_gain, "plant_gain");
+                if s.beta.low <= T::ZERO {
                     return Err(Error::Inadmissible("lag form: beta.low > 0"));
                 }
-                if s.delta.low < zero {
+                if s.delta.low < T::ZERO {
                     return Err(Error::Inadmissible("lag form: delta.low >= 0"));
                 }
-                if step * s.lambda > one {
+                if step * s.lambda > T::ONE {
                     return Err(Error::Inadmissible("lag form: h*lambda <= 1"));
                 }
-                let largest: $T = largest_step!(s, plant_gain, $T);
+                let largest = largest_step(s, plant_gain);
                 if step > largest || largest.is_nan() {
                     return Err(Error::Inadmissible(
                         "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1",
@@ -215,36 +239,10 @@ macro_rules! checks {
                 }
             }
         }
-        Ok(())
-    }};
+        let longest = longest(s);
+        Ok(Adaptive { settings, longest })
+    }
 }
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl<const N: usize> AdaptiveSettings<$float, N> {
-            const fn const_check(&self) -> Result<(), Error> {
-                checks!(self, $float)
-            }
-        }
-
-        impl<const N: usize> Adaptive<$float, N> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(settings: AdaptiveSettings<$float, N>) -> Result<Self, Error> {
-                if let Err(error) = settings.const_check() {
-                    return Err(error);
-                }
-                let s = &settings;
-                let longest = longest!(s, $float);
-                Ok(Self { settings, longest })
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
 
 impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// Settings for a machine with fixed estimates, from k, lambda \[1/s\] and epsilon \[N·m\]:
@@ -304,17 +302,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         let Form::FirstOrder { plant_gain, .. } = self.form else {
             return None;
         };
-        Some(largest_step!(self, plant_gain, T))
-    }
-
-    /// The longest step that a law with these settings accepts \[s\].
-    pub(super) fn longest(&self) -> T {
-        longest!(self, T)
-    }
-
-    /// Every condition on the settings.
-    pub(super) fn check(&self) -> Result<(), Error> {
-        checks!(self, T)
+        Some(largest_step(self, plant_gain))
     }
 }
 

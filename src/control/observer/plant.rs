@@ -30,36 +30,29 @@ pub struct NominalPlant<T> {
     damping_ratio: T,
 }
 
-/// The plant after its checks, for any float and for constants.
-macro_rules! plant {
-    ($gain:ident, $frequency:ident, $damping:ident, $zero:expr, $one:expr) => {{
-        must_be_finite!($gain, "gain");
-        if $gain == $zero || !($one / $gain).is_finite() {
-            return Err(Error::OutOfRange("gain"));
-        }
-        above_zero!($frequency, $zero, "natural_frequency");
-        if !(($one / $frequency) / $frequency).is_finite() {
-            return Err(Error::OutOfRange("natural_frequency"));
-        }
-        not_below_zero!($damping, $zero, "damping_ratio");
-        Ok(Self {
-            gain: $gain,
-            natural_frequency: $frequency,
-            damping_ratio: $damping,
-        })
-    }};
-}
+crate::checked! {
+    NominalPlant<T>;
 
-impl<T: Real> NominalPlant<T> {
     /// alpha \[output unit/command unit\], not zero; wn > 0 \[rad/s\]; zeta ≥ 0.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"`, `"natural_frequency"` or
     /// `"damping_ratio"`.
-    pub fn try_new(gain: T, natural_frequency: T, damping_ratio: T) -> Result<Self, Error> {
-        plant!(gain, natural_frequency, damping_ratio, T::ZERO, T::ONE)
+    pub fn try_new(gain: T, natural_frequency: T, damping_ratio: T) {
+        must_be_finite!(gain, "gain");
+        if gain == T::ZERO || !(T::ONE / gain).is_finite() {
+            return Err(Error::OutOfRange("gain"));
+        }
+        above_zero!(natural_frequency, "natural_frequency");
+        if !((T::ONE / natural_frequency) / natural_frequency).is_finite() {
+            return Err(Error::OutOfRange("natural_frequency"));
+        }
+        not_below_zero!(damping_ratio, "damping_ratio");
+        Ok(NominalPlant { gain, natural_frequency, damping_ratio })
     }
+}
 
+impl<T: Real> NominalPlant<T> {
     /// A plant from the drive's specification: the torque of one command unit at rest, inertia > 0
     /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\]. The stiffness is
     /// that of cable and load in series.
@@ -125,27 +118,7 @@ impl<T: Real> NominalPlant<T> {
     }
 }
 
-macro_rules! constant {
-    ($float:ty) => {
-        impl NominalPlant<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(
-                gain: $float,
-                natural_frequency: $float,
-                damping_ratio: $float,
-            ) -> Result<Self, Error> {
-                plant!(gain, natural_frequency, damping_ratio, 0.0, 1.0)
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-crate::stored::deserialize_checked! {
+crate::checked::deserialize_checked! {
     NominalPlant<T> {
         gain: T,
         natural_frequency: T,

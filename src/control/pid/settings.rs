@@ -193,102 +193,13 @@ fn none<T>() -> Option<T> {
 
 /// A number within 0..=1, or the error with its name.
 macro_rules! share {
-    ($value:expr, $zero:expr, $one:expr, $name:expr) => {
-        not_below_zero!($value, $zero, $name);
-        if $value > $one {
+    ($value:expr, $name:expr) => {
+        not_below_zero!($value, $name);
+        if $value > T::ONE {
             return Err(Error::OutOfRange($name));
         }
     };
 }
-
-/// Every check of the settings, for any float and for constants.
-macro_rules! checks {
-    ($settings:ident, $T:ty) => {{
-        let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
-        must_be_finite!(s.k_p, "k_p");
-        must_be_finite!(s.k_i, "k_i");
-        must_be_finite!(s.k_d, "k_d");
-        if (s.k_p > zero && s.k_i < zero) || (s.k_p < zero && s.k_i > zero) {
-            return Err(Error::Inadmissible("k_p and k_i must have the same sign"));
-        }
-        if let DerivativeSource::Rate { weight } = s.damping {
-            share!(weight, zero, one, "derivative weight");
-            let above = s.k_p > zero || s.k_i > zero;
-            let below = s.k_p < zero || s.k_i < zero;
-            if (above && s.k_d < zero) || (below && s.k_d > zero) {
-                return Err(Error::Inadmissible("k_d must have the sign of k_p and k_i"));
-            }
-        }
-        share!(s.setpoint_weight, zero, one, "setpoint_weight");
-        not_below_zero!(s.derivative_time, zero, "derivative_time");
-        if let AntiWindup::BackCalculation { tracking_time } = s.anti_windup {
-            above_zero!(tracking_time, zero, "tracking_time");
-        }
-        if let Some(limit) = s.integral_limit {
-            above_zero!(limit, zero, "integral_limit");
-        }
-        not_below_zero!(s.deadband, zero, "deadband");
-        if let Some(period) = s.period {
-            above_zero!(period, zero, "period");
-            let whole = match s.damping {
-                DerivativeSource::Rate { weight } => weight == zero || weight == one,
-                DerivativeSource::Velocity => true,
-            };
-            if s.setpoint_weight != one || !whole {
-                return Err(Error::Inadmissible(
-                    "with a period: setpoint_weight 1, derivative weight 0 or 1",
-                ));
-            }
-        }
-        above_zero!(s.longest_dt, zero, "longest_dt");
-        if let Some(safe) = s.fallback.command() {
-            if safe < s.limits.low() || safe > s.limits.high() {
-                return Err(Error::Inadmissible(OUTSIDE));
-            }
-        }
-        Ok(())
-    }};
-}
-
-/// Whether only the range limits the sum of the terms, for any float and for constants.
-macro_rules! plain {
-    ($s:ident, $zero:expr) => {
-        $s.limits.slew().is_none()
-            && matches!($s.anti_windup, AntiWindup::None | AntiWindup::Conditional)
-            && $s.k_i != $zero
-            && $s.integral_limit.is_none()
-            && $s.deadband == $zero
-            && $s.period.is_none()
-    };
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl PidSettings<$float> {
-            const fn const_check(&self) -> Result<(), Error> {
-                checks!(self, $float)
-            }
-        }
-
-        impl Pid<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(settings: PidSettings<$float>) -> Result<Self, Error> {
-                match settings.const_check() {
-                    Ok(()) => Ok(Self {
-                        plain: plain!(settings, 0.0),
-                        settings,
-                    }),
-                    Err(error) => Err(error),
-                }
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
 
 impl<T: Real> PidSettings<T> {
     /// A plain PI (15) for a machine, with limits and a fallback.
@@ -330,16 +241,71 @@ impl<T: Real> PidSettings<T> {
             fallback: Fallback::hold_indefinitely(),
         }
     }
+}
 
-    /// Whether a step needs none of the rarer settings: no slew-rate limit, an anti-windup that
-    /// depends on the range alone, and an integral gain.
-    pub(super) fn is_plain(&self) -> bool {
-        plain!(self, T::ZERO)
+crate::checked! {
+    Pid<T>;
+
+    fn is_plain[](s: &PidSettings<T>) -> bool {
+        s.limits.slew().is_none()
+            && matches!(s.anti_windup, AntiWindup::None | AntiWindup::Conditional)
+            && s.k_i != T::ZERO
+            && s.integral_limit.is_none()
+            && s.deadband == T::ZERO
+            && s.period.is_none()
     }
 
-    /// Every check that the documentation of the fields states.
-    pub(super) fn check(&self) -> Result<(), Error> {
-        checks!(self, T)
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
+    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
+    /// [`PidSettings`] state both.
+    pub fn try_new(settings: PidSettings<T>) {
+        let s = &settings;
+        must_be_finite!(s.k_p, "k_p");
+        must_be_finite!(s.k_i, "k_i");
+        must_be_finite!(s.k_d, "k_d");
+        if (s.k_p > T::ZERO && s.k_i < T::ZERO) || (s.k_p < T::ZERO && s.k_i > T::ZERO) {
+            return Err(Error::Inadmissible("k_p and k_i must have the same sign"));
+        }
+        if let DerivativeSource::Rate { weight } = s.damping {
+            share!(weight, "derivative weight");
+            let above = s.k_p > T::ZERO || s.k_i > T::ZERO;
+            let below = s.k_p < T::ZERO || s.k_i < T::ZERO;
+            if (above && s.k_d < T::ZERO) || (below && s.k_d > T::ZERO) {
+                return Err(Error::Inadmissible("k_d must have the sign of k_p and k_i"));
+            }
+        }
+        share!(s.setpoint_weight, "setpoint_weight");
+        not_below_zero!(s.derivative_time, "derivative_time");
+        if let AntiWindup::BackCalculation { tracking_time } = s.anti_windup {
+            above_zero!(tracking_time, "tracking_time");
+        }
+        if let Some(limit) = s.integral_limit {
+            above_zero!(limit, "integral_limit");
+        }
+        not_below_zero!(s.deadband, "deadband");
+        if let Some(period) = s.period {
+            above_zero!(period, "period");
+            let whole = match s.damping {
+                DerivativeSource::Rate { weight } => weight == T::ZERO || weight == T::ONE,
+                DerivativeSource::Velocity => true,
+            };
+            if s.setpoint_weight != T::ONE || !whole {
+                return Err(Error::Inadmissible(
+                    "with a period: setpoint_weight 1, derivative weight 0 or 1",
+                ));
+            }
+        }
+        above_zero!(s.longest_dt, "longest_dt");
+        if let Some(safe) = s.fallback.command() {
+            if safe < s.limits.low() || safe > s.limits.high() {
+                return Err(Error::Inadmissible(OUTSIDE));
+            }
+        }
+        let plain = is_plain(s);
+        Ok(Pid { plain, settings })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::{Error, Real};
 /// ```
 /// use bowden::constant;
 /// use bowden::control::{Fallback, Limits, Relay, RelaySettings};
-/// static RELAY: Relay<f32> = constant!(Relay::<f32>::const_new(RelaySettings {
+/// static RELAY: Relay<f32> = constant!(Relay::<f32>::try_new(RelaySettings {
 ///     reference: 5.0,      // [N·m]
 ///     centre: 10.0,        // [command unit]
 ///     amplitude: 8.0,      // [command unit]
@@ -21,8 +21,8 @@ use crate::{Error, Real};
 ///     agreement: 0.05,
 ///     longest_time: 20.0, // [s]
 ///     longest_dt: 0.005,  // [s]
-///     limits: constant!(Limits::<f32>::const_new(-20.0, 60.0)),
-///     fallback: constant!(Fallback::<f32>::const_new(20, 0.0)),
+///     limits: constant!(Limits::<f32>::try_new(-20.0, 60.0)),
+///     fallback: constant!(Fallback::<f32>::try_new(20, 0.0)),
 /// }));
 /// assert_eq!(RELAY.settings().cycles, 4);
 /// ```
@@ -80,17 +80,24 @@ pub struct RelaySettings<T> {
     pub fallback: Fallback<T>,
 }
 
-/// Every check of the settings, for any float and for constants.
-macro_rules! checks {
-    ($settings:ident, $T:ty) => {{
-        let (s, zero, one) = ($settings, <$T as Real>::ZERO, <$T as Real>::ONE);
+crate::checked! {
+    Relay<T>;
+
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
+    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
+    /// [`RelaySettings`] state both.
+    pub fn try_new(settings: RelaySettings<T>) {
+        let s = &settings;
         must_be_finite!(s.reference, "reference");
         must_be_finite!(s.centre, "centre");
         must_be_finite!(s.amplitude, "amplitude");
-        if s.amplitude == zero {
+        if s.amplitude == T::ZERO {
             return Err(Error::OutOfRange("amplitude"));
         }
-        not_below_zero!(s.hysteresis, zero, "hysteresis");
+        not_below_zero!(s.hysteresis, "hysteresis");
         must_be_finite!(s.most_deviation, "most_deviation");
         if s.most_deviation <= s.hysteresis {
             return Err(Error::Inadmissible("hysteresis < most_deviation"));
@@ -98,11 +105,11 @@ macro_rules! checks {
         if s.cycles < 2 {
             return Err(Error::OutOfRange("cycles"));
         }
-        above_zero!(s.agreement, zero, "agreement");
-        if s.agreement >= one {
+        above_zero!(s.agreement, "agreement");
+        if s.agreement >= T::ONE {
             return Err(Error::OutOfRange("agreement"));
         }
-        above_zero!(s.longest_dt, zero, "longest_dt");
+        above_zero!(s.longest_dt, "longest_dt");
         must_be_finite!(s.longest_time, "longest_time");
         if s.longest_time < s.longest_dt {
             return Err(Error::Inadmissible("longest_dt <= longest_time"));
@@ -120,42 +127,10 @@ macro_rules! checks {
             ));
         }
         match s.fallback.command() {
-            Some(safe) if safe >= low && safe <= high => Ok(()),
+            Some(safe) if safe >= low && safe <= high => Ok(Relay { settings }),
             Some(_) => Err(Error::Inadmissible(OUTSIDE)),
             None => Err(Error::Inadmissible("a relay must have a safe command")),
         }
-    }};
-}
-
-macro_rules! constant {
-    ($float:ty) => {
-        impl RelaySettings<$float> {
-            const fn const_check(&self) -> Result<(), Error> {
-                checks!(self, $float)
-            }
-        }
-
-        impl Relay<$float> {
-            /// [`try_new`](Self::try_new) at compile time, see [`constant!`](crate::constant).
-            ///
-            /// # Errors
-            /// The same as [`try_new`](Self::try_new).
-            pub const fn const_new(settings: RelaySettings<$float>) -> Result<Self, Error> {
-                match settings.const_check() {
-                    Ok(()) => Ok(Self { settings }),
-                    Err(error) => Err(error),
-                }
-            }
-        }
-    };
-}
-constant!(f32);
-constant!(f64);
-
-impl<T: Real> RelaySettings<T> {
-    /// Every check that the documentation of the fields states.
-    pub(super) fn check(&self) -> Result<(), Error> {
-        checks!(self, T)
     }
 }
 

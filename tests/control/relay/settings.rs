@@ -2,6 +2,7 @@
 
 use super::usual;
 use bowden::control::{Fallback, Limits, PiRule, Relay, RelaySettings, Ultimate};
+use bowden::Constant;
 use bowden::Error;
 
 #[test]
@@ -60,7 +61,7 @@ fn what_cannot_be_is_refused_by_name() {
         let mut settings = usual();
         change(&mut settings);
         assert_eq!(Relay::try_new(settings).err(), Some(error));
-        assert_eq!(Relay::<f64>::const_new(settings).err(), Some(error));
+        assert_eq!(Constant::<Relay<f64>>::try_new(settings).err(), Some(error));
     }
     let levels = RelaySettings {
         limits: Limits::try_new(-1.0, 1.0).unwrap(),

@@ -108,14 +108,17 @@ fn bounds(designed: &Designed, out: &mut String) {
     line!(out);
     line!(out, "/// Range of the record [command unit].");
     let (low, high) = (number(b.low), number(b.high));
-    let range = format!("constant!(Limits::<f32>::const_new({low}, {high}))");
+    let range = format!("constant!(Limits::<f32>::try_new({low}, {high}))");
     item("const RANGE: Limits<f32>", &range, out);
     line!(out);
     line!(
         out,
         "/// The range with the slew-rate limit [command unit/s]."
     );
-    let slewed = format!("constant!(RANGE.const_with_slew({}))", number(b.slew));
+    let slewed = format!(
+        "constant!(Limits::<f32>::with_slew(RANGE, {}))",
+        number(b.slew)
+    );
     item("pub const LIMITS: Limits<f32>", &slewed, out);
     line!(out);
     let after = b.fallback_after;
@@ -124,7 +127,7 @@ fn bounds(designed: &Designed, out: &mut String) {
         "/// The safe command [command unit] after {after} bad samples in a row."
     );
     let safe = number(b.fallback_command);
-    let fallback = format!("constant!(Fallback::<f32>::const_new({after}, {safe}))");
+    let fallback = format!("constant!(Fallback::<f32>::try_new({after}, {safe}))");
     item("pub const FALLBACK: Fallback<f32>", &fallback, out);
     line!(out);
     line!(
@@ -155,7 +158,7 @@ fn settings(name: &str, own: &PidSettings<f64>, out: &mut String) {
     line!(out, "/// {name}, checked.");
     line!(out, "#[allow(dead_code)]");
     let what = format!("pub static {name}: Pid<f32>");
-    let checked = format!("constant!(Pid::<f32>::const_new({name}_SETTINGS))");
+    let checked = format!("constant!(Pid::<f32>::try_new({name}_SETTINGS))");
     item(&what, &checked, out);
 }
 
@@ -195,7 +198,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         "/// The safe command [command unit] after {after} bad steps of the law in a row."
     );
     let fallback = format!(
-        "constant!(Fallback::<f32>::const_new({after}, {}))",
+        "constant!(Fallback::<f32>::try_new({after}, {}))",
         number(safe)
     );
     item("const STEPS_FALLBACK: Fallback<f32>", &fallback, out);
@@ -205,7 +208,10 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         out,
         "/// The range with the slew-rate limit that the certificate needs [command unit/s]."
     );
-    let slewed = format!("constant!(RANGE.const_with_slew({}))", number(slew));
+    let slewed = format!(
+        "constant!(Limits::<f32>::with_slew(RANGE, {}))",
+        number(slew)
+    );
     item("const STEPS_LIMITS: Limits<f32>", &slewed, out);
     line!(out);
     line!(out, "/// The settings of the law.");
@@ -237,7 +243,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out, "#[allow(dead_code)]");
     item(
         "pub static ADAPTIVE: Adaptive<f32, 0>",
-        "constant!(Adaptive::<f32, 0>::const_new(ADAPTIVE_SETTINGS))",
+        "constant!(Adaptive::<f32, 0>::try_new(ADAPTIVE_SETTINGS))",
         out,
     );
 }

@@ -21,7 +21,6 @@ fn cells() -> u16 {
 }
 
 pub fn all<T: Real>() -> Option<()> {
-    constants()?;
     never_panics!(
         control_learning_try_new,
         IterativeLearning::<T>::try_new(any(), any(), cells(), cells())
@@ -85,25 +84,5 @@ fn slices<T: Real>(learning: &IterativeLearning<T>, at: &IterativeLearningInput<
     let mut state = black_box(learning.start(learned, unfiltered)).ok()?;
     never_panics!(control_learning_step, learning.step(&mut state, at));
     never_panics!(control_learning_state_learned, state.learned());
-    Some(())
-}
-
-/// The constructors of constants.
-fn constants() -> Option<()> {
-    never_panics!(
-        control_learning_const_new,
-        IterativeLearning::<f32>::const_new(any(), any(), cells(), cells())
-    );
-    let learning = black_box(IterativeLearning::<f32>::const_new(
-        any(),
-        any(),
-        cells(),
-        cells(),
-    ))
-    .ok()?;
-    never_panics!(
-        control_learning_const_with_forgetting,
-        learning.const_with_forgetting(any())
-    );
     Some(())
 }

@@ -7,7 +7,6 @@ use bowden::Real;
 use std::hint::black_box;
 
 pub fn all<T: Real>() -> Option<()> {
-    constants()?;
     never_panics!(
         control_observer_plant_try_new,
         NominalPlant::<T>::try_new(any(), any(), any())
@@ -49,24 +48,5 @@ pub fn all<T: Real>() -> Option<()> {
     };
     never_panics!(control_observer_step, observer.step(&mut state, &at));
     never_panics!(control_observer_state_estimate, state.estimate());
-    Some(())
-}
-
-/// The constructors of constants.
-fn constants() -> Option<()> {
-    never_panics!(
-        control_observer_plant_const_new,
-        NominalPlant::<f32>::const_new(any(), any(), any())
-    );
-    let plant = black_box(NominalPlant::<f32>::const_new(any(), any(), any())).ok()?;
-    never_panics!(
-        control_observer_const_new,
-        DisturbanceObserver::<f32>::const_new(plant, any(), any(), any())
-    );
-    let observer = black_box(DisturbanceObserver::try_new(plant, any(), any(), any())).ok()?;
-    never_panics!(
-        control_observer_const_with_latency,
-        observer.const_with_latency(any())
-    );
     Some(())
 }

@@ -36,7 +36,7 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_pid_matched_pi, Pid::<T>::matched_pi());
 
     let settings = black_box(PidSettings::<T>::unlimited(any(), any()));
-    never_panics!(control_pid_try_new, Pid::try_new(settings));
+    never_panics!(control_pid_settings_try_new, Pid::try_new(settings));
     let pid = black_box(Pid::try_new(settings)).ok()?;
     let at = black_box(PidInput::new(any(), any(), any()));
     never_panics!(control_pid_state_new, PidState::<T>::new());
