@@ -6,7 +6,7 @@ use super::properties::control::{
     pid_commands_within_its_limits_from_any_state, the_score_keeps_up,
 };
 use super::{limited, stubs};
-use bowden::control::pid::state::{Last, Unchecked};
+use bowden::control::pid::state::Last;
 use bowden::control::status::{Held, Latch};
 use bowden::control::{
     AntiWindup, Applied, DerivativeSource, Fault, Limits, Pid, PidInput, PidSettings, PidState,
@@ -52,7 +52,7 @@ pub(crate) fn latch() -> Latch {
 }
 
 /// Any numbers in the fields of a state.
-fn raw() -> Unchecked<f32> {
+fn raw() -> PidState<f32> {
     let last = Last {
         reference: kani::any(),
         measured: kani::any(),
@@ -61,7 +61,7 @@ fn raw() -> Unchecked<f32> {
         unlimited: kani::any(),
         change: kani::any(),
     };
-    Unchecked {
+    PidState {
         integral: Compensated {
             value: kani::any(),
             carry: kani::any(),
@@ -196,7 +196,7 @@ fn wrapped_of_no_number_is_none() {
 #[kani::stub(Limits::apply, limited::apply)]
 fn pid_from_any_state() {
     let (pid, at) = (pid(AntiWindup::Conditional, rate()), input());
-    let mut state = PidState::assumed(raw());
+    let mut state = raw();
     let before = state;
     let kept = pid_commands_within_its_limits_from_any_state(&pid, &mut state, &at);
     kani::cover!(before.integral().is_nan() && at.measured == 1.0);

@@ -79,10 +79,45 @@ macro_rules! checked {
 }
 pub(crate) use checked;
 
-/// `Deserialize` of a configuration: reads these fields, refuses others, and returns what the
-/// constructors make of the fields.
-macro_rules! deserialize_checked {
-    ($config:ident<$T:ident> { $($(#[$attribute:meta])* $field:ident: $kind:ty,)+ } => $made:block) => {
+/// A configuration or a state, and its stored form.
+///
+/// Deserialising reads the fields, refuses others, and returns what the block after `=>` makes of
+/// them; without a block, the fields themselves if all numbers are finite.
+macro_rules! stored {
+    (
+        $(#[doc = $doc:expr])*
+        $(#[derive($($derive:ident),+)])?
+        $vis:vis struct $name:ident<T $(, const $n:ident: usize)?> {
+            $(
+                $(#[doc = $field_doc:expr])*
+                $(#[serde($($serde:tt)*)])?
+                $field_vis:vis $field:ident: $kind:ty,
+            )+
+        }
+        $(=> $made:block)?
+    ) => {
+        $(#[doc = $doc])*
+        #[derive(Debug, Clone, Copy, PartialEq $(, $($derive),+)?)]
+        #[cfg_attr(
+            feature = "serde",
+            derive(serde::Serialize),
+            serde(bound(serialize = "T: crate::Real + serde::Serialize"))
+        )]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        $vis struct $name<T $(, const $n: usize)?> {
+            $(
+                $(#[doc = $field_doc])*
+                $(#[cfg_attr(feature = "serde", serde($($serde)*))])?
+                $field_vis $field: $kind,
+            )+
+        }
+
+        impl<T: crate::Real $(, const $n: usize)?> crate::checked::Finite for $name<T $(, $n)?> {
+            fn all_finite(&self) -> bool {
+                true $(&& crate::checked::Finite::all_finite(&self.$field))+
+            }
+        }
+
         #[cfg(feature = "serde")]
         const _: () = {
             #[derive(serde::Deserialize)]
@@ -90,21 +125,131 @@ macro_rules! deserialize_checked {
                 deny_unknown_fields,
                 bound(deserialize = "T: crate::Real + serde::Deserialize<'de>")
             )]
-            struct Stored<$T> {
-                $($(#[$attribute])* $field: $kind,)+
+            struct Stored<T $(, const $n: usize)?> {
+                $(
+                    $(#[serde($($serde)*)])?
+                    $field: $kind,
+                )+
             }
 
-            impl<'de, $T> serde::Deserialize<'de> for $config<$T>
+            #[allow(unused_imports, unused_variables)]
+            impl<'de, T $(, const $n: usize)?> serde::Deserialize<'de> for $name<T $(, $n)?>
             where
-                $T: crate::Real + serde::Deserialize<'de>,
+                T: crate::Real + serde::Deserialize<'de>,
             {
                 fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                    let Stored { $($field,)+ } = Stored::<$T>::deserialize(from)?;
-                    let made = || -> Result<Self, crate::Error> { $made };
+                    use crate::checked::finite;
+                    let Stored { $($field,)+ } = Stored::<T $(, $n)?>::deserialize(from)?;
+                    let made = || -> Result<Self, crate::Error> {
+                        $(return $made;)?
+                        #[allow(unreachable_code)]
+                        finite(Self { $($field,)+ })
+                    };
                     made().map_err(serde::de::Error::custom)
                 }
             }
         };
     };
 }
-pub(crate) use deserialize_checked;
+pub(crate) use stored;
+
+/// Whether all numbers of a state are finite: any other number could persist indefinitely.
+pub(crate) trait Finite {
+    fn all_finite(&self) -> bool;
+}
+
+impl<T: crate::Real> Finite for T {
+    #[inline]
+    fn all_finite(&self) -> bool {
+        self.is_finite()
+    }
+}
+
+impl<X: Finite> Finite for Option<X> {
+    #[inline]
+    fn all_finite(&self) -> bool {
+        self.as_ref().is_none_or(X::all_finite)
+    }
+}
+
+impl<X: Finite, const N: usize> Finite for [X; N] {
+    #[inline]
+    fn all_finite(&self) -> bool {
+        self.iter().all(X::all_finite)
+    }
+}
+
+impl<T: crate::Real> Finite for crate::signal::Motion<T> {
+    fn all_finite(&self) -> bool {
+        [self.position, self.velocity, self.acceleration].all_finite()
+    }
+}
+
+/// Parts without numbers, and those that check themselves when they are read.
+macro_rules! finite_anyway {
+    ($([$($generic:tt)*] $kind:ty;)+) => {
+        $(impl<$($generic)*> Finite for $kind {
+            fn all_finite(&self) -> bool {
+                true
+            }
+        })+
+    };
+}
+finite_anyway! {
+    [] bool;
+    [] u16;
+    [] u32;
+    [] i32;
+    [] crate::control::status::Latch;
+    [] crate::control::End;
+    [] crate::transmission::Mode;
+    [T] crate::control::RelayPhase<T>;
+    [T] crate::hysteresis::BoucWen<T>;
+    [T] crate::hysteresis::BoucWenState<T>;
+    [T, const N: usize] crate::model::ModelState<T, N>;
+}
+
+/// A state, if all its numbers are finite.
+#[cfg(feature = "serde")]
+pub(crate) fn finite<S: Finite>(state: S) -> Result<S, crate::Error> {
+    if state.all_finite() {
+        Ok(state)
+    } else {
+        Err(crate::Error::NonFinite("state"))
+    }
+}
+
+/// Default longest dt of a stored form: any.
+#[cfg(feature = "serde")]
+pub(crate) fn any_dt<T: crate::Real>() -> T {
+    T::HIGHEST
+}
+
+/// The stored form of a configuration that is made of another type: its settings.
+macro_rules! stored_as {
+    ($name:ident<T $(, $n:ident)?> as $form:ty: |$it:ident| $to:expr, $from:expr) => {
+        #[cfg(feature = "serde")]
+        const _: () = {
+            impl<T $(, const $n: usize)?> serde::Serialize for $name<T $(, $n)?>
+            where
+                T: crate::Real + serde::Serialize,
+            {
+                fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                    let $it = self;
+                    <$form as serde::Serialize>::serialize(&$to, to)
+                }
+            }
+
+            impl<'de, T $(, const $n: usize)?> serde::Deserialize<'de> for $name<T $(, $n)?>
+            where
+                T: crate::Real + serde::Deserialize<'de>,
+            {
+                fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                    let form = <$form as serde::Deserialize>::deserialize(from)?;
+                    $from(form).map_err(serde::de::Error::custom)
+                }
+            }
+        };
+    };
+}
+pub(crate) use stored_as;

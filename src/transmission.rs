@@ -51,40 +51,35 @@ pub enum Mode {
     Displacement,
 }
 
-/// A linear gain with hysteresis and an offset: equations (1)-(2) and (5)-(7).
-///
-/// ```
-/// use bowden::hysteresis::{BoucWenState, BoucWen};
-/// use bowden::transmission::Transmission;
-/// # fn main() -> Result<(), bowden::Error> {
-/// let shape = BoucWen::try_new(0.09582, 98.36, 3.871)?;
-/// let cable = Transmission::torque(0.9978, 7.004, 0.05174, shape)?; // [N·m]
-/// let mut state = BoucWenState::new();
-/// cable.step(&mut state, 0.0);
-/// let tau_o = cable.step(&mut state, 16.0_f64);
-/// assert!((tau_o - 9.1).abs() < 0.1); // friction takes 6.9 N·m
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct Transmission<T> {
-    mode: Mode,
-    gain: T,
-    kappa_eta: T,
-    offset: T,
-    shape: BoucWen<T>,
+crate::checked::stored! {
+    /// A linear gain with hysteresis and an offset: equations (1)-(2) and (5)-(7).
+    ///
+    /// ```
+    /// use bowden::hysteresis::{BoucWenState, BoucWen};
+    /// use bowden::transmission::Transmission;
+    /// # fn main() -> Result<(), bowden::Error> {
+    /// let shape = BoucWen::try_new(0.09582, 98.36, 3.871)?;
+    /// let cable = Transmission::torque(0.9978, 7.004, 0.05174, shape)?; // [N·m]
+    /// let mut state = BoucWenState::new();
+    /// cable.step(&mut state, 0.0);
+    /// let tau_o = cable.step(&mut state, 16.0_f64);
+    /// assert!((tau_o - 9.1).abs() < 0.1); // friction takes 6.9 N·m
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub struct Transmission<T> {
+        mode: Mode,
+        gain: T,
+        kappa_eta: T,
+        offset: T,
+        shape: BoucWen<T>,
+    }
+    => {
+        match mode {
+            Mode::Torque => Self::torque(gain, kappa_eta, offset, shape),
+            Mode::Displacement => Self::displacement(gain, kappa_eta, offset, shape),
+        }
+    }
 }
 
 crate::checked! {
@@ -328,30 +323,5 @@ impl<T: Real> Transmission<T> {
             hysteresis: sign * hysteresis,
             offset,
         })
-    }
-}
-
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))]
-struct Unchecked<T> {
-    mode: Mode,
-    gain: T,
-    kappa_eta: T,
-    offset: T,
-    shape: BoucWen<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for Transmission<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        match raw.mode {
-            Mode::Torque => Self::torque(raw.gain, raw.kappa_eta, raw.offset, raw.shape),
-            Mode::Displacement => {
-                Self::displacement(raw.gain, raw.kappa_eta, raw.offset, raw.shape)
-            }
-        }
     }
 }

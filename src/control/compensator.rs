@@ -384,34 +384,26 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     }
 }
 
-/// State of a [`Compensator`]: the hysteresis, the play and the memories of the effects.
-///
-/// ```
-/// use bowden::control::CompensatorState;
-/// let state = CompensatorState::<f32, 2>::new();
-/// assert_eq!((state.command(), state.eta(), state.consecutive_bad()), (0.0, 0.0, 0));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        deny_unknown_fields,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CompensatorState<T, const N: usize> {
-    hysteresis: BoucWenState<T>,
-    /// The hysteresis before the last sample, from which the cable's input has moved.
-    before: BoucWenState<T>,
-    effects: ModelState<T, N>,
-    #[cfg_attr(feature = "serde", serde(default = "PlayState::new"))]
-    play: PlayState<T>,
-    bad: u32,
+crate::checked::stored! {
+    /// State of a [`Compensator`]: the hysteresis, the play and the memories of the effects.
+    ///
+    /// ```
+    /// use bowden::control::CompensatorState;
+    /// let state = CompensatorState::<f32, 2>::new();
+    /// assert_eq!((state.command(), state.eta(), state.consecutive_bad()), (0.0, 0.0, 0));
+    /// ```
+    pub struct CompensatorState<T, const N: usize> {
+        hysteresis: BoucWenState<T>,
+        /// The hysteresis before the last sample, from which the cable's input has moved.
+        before: BoucWenState<T>,
+        effects: ModelState<T, N>,
+        #[serde(default = "PlayState::new")]
+        play: PlayState<T>,
+        bad: u32,
+    }
+    => {
+        Ok(Self { hysteresis, before, effects, play, bad })
+    }
 }
 
 impl<T: Real, const N: usize> CompensatorState<T, N> {

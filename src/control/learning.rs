@@ -50,39 +50,43 @@ const MOST_PASSED: usize = 4;
 /// wrong, for example after hours without motion.
 const MOST_SAMPLES: f64 = 65_536.0;
 
-/// Iterative learning over a repeating cycle: gain, lead, filter, limit, forgetting.
-///
-/// The learned values are stored in two buffers of the same length, one number per cell: arrays, or
-/// borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Use about ten cells per second
-/// for each hertz of the filter's corner frequency, but fewer cells than samples in the shortest
-/// cycle.
-///
-/// ```
-/// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
-/// // 4 units per N·m, at most 30 units, two cells ahead, Q over five cells.
-/// let learning = IterativeLearning::try_new(4.0_f32, 30.0, 2, 2)?;
-/// let mut state = learning.start([0.0; 250], [0.0; 250])?;
-/// // A cycle of 1000 samples; 0.5 N·m are missing everywhere.
-/// for k in 0..2000 {
-///     let phase = (k % 1000) as f32 / 1000.0;
-///     let at = IterativeLearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
-///     let out = learning.step(&mut state, &at); // out.feed_forward into LoopSample
-///     // Held means no phase: after a few such samples, omit the feed-forward.
-///     assert!(!matches!(out.status, Status::Held(_)));
-/// }
-/// // The cell has learned twice: 4 units per N·m each time.
-/// assert!((state.learned()[100] - 4.0).abs() < 1e-5);
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct IterativeLearning<T> {
-    gain: T,
-    limit: T,
-    lead: u16,
-    half_width: u16,
-    forgetting: T,
+crate::checked::stored! {
+    /// Iterative learning over a repeating cycle: gain, lead, filter, limit, forgetting.
+    ///
+    /// The learned values are stored in two buffers of the same length, one number per cell: arrays, or
+    /// borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Use about ten cells per second
+    /// for each hertz of the filter's corner frequency, but fewer cells than samples in the shortest
+    /// cycle.
+    ///
+    /// ```
+    /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
+    /// // 4 units per N·m, at most 30 units, two cells ahead, Q over five cells.
+    /// let learning = IterativeLearning::try_new(4.0_f32, 30.0, 2, 2)?;
+    /// let mut state = learning.start([0.0; 250], [0.0; 250])?;
+    /// // A cycle of 1000 samples; 0.5 N·m are missing everywhere.
+    /// for k in 0..2000 {
+    ///     let phase = (k % 1000) as f32 / 1000.0;
+    ///     let at = IterativeLearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
+    ///     let out = learning.step(&mut state, &at); // out.feed_forward into LoopSample
+    ///     // Held means no phase: after a few such samples, omit the feed-forward.
+    ///     assert!(!matches!(out.status, Status::Held(_)));
+    /// }
+    /// // The cell has learned twice: 4 units per N·m each time.
+    /// assert!((state.learned()[100] - 4.0).abs() < 1e-5);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct IterativeLearning<T> {
+        gain: T,
+        limit: T,
+        lead: u16,
+        half_width: u16,
+        #[serde(default = "T::zero")]
+        forgetting: T,
+    }
+    => {
+        Self::try_new(gain, limit, lead, half_width)?
+            .with_forgetting(forgetting)
+    }
 }
 
 /// One sample for [`IterativeLearning`].
@@ -417,18 +421,4 @@ enum Moved {
     On,
     Back,
     Jumped,
-}
-
-crate::checked::deserialize_checked! {
-    IterativeLearning<T> {
-        gain: T,
-        limit: T,
-        lead: u16,
-        half_width: u16,
-        #[serde(default = "T::zero")]
-        forgetting: T,
-    } => {
-        Self::try_new(gain, limit, lead, half_width)?
-            .with_forgetting(forgetting)
-    }
 }

@@ -4,25 +4,28 @@ use crate::error::{above_zero, ordered};
 use crate::signal::{clamp, confined};
 use crate::{Error, Real};
 
-/// Range \[command unit\] and slew-rate limit \[command unit/s\] of a command.
-///
-/// In a stored form a missing `slew` means no slew-rate limit. The range need not be symmetric.
-/// [`Limits::unlimited`] is the range of the float itself, so a command is always finite.
-///
-/// ```
-/// use bowden::control::Limits;
-/// let limits = Limits::try_new(-5.0, 20.0)?.with_slew(1000.0)?;
-/// assert_eq!(limits.apply(0.0, 9.0, 0.001), 1.0); // 1000/s for 1 ms
-/// assert_eq!(limits.apply(19.5, 90.0, 0.001), 20.0);
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Limits<T> {
-    low: T,
-    high: T,
-    slew: Option<T>,
+crate::checked::stored! {
+    /// Range \[command unit\] and slew-rate limit \[command unit/s\] of a command.
+    ///
+    /// In a stored form a missing `slew` means no slew-rate limit. The range need not be symmetric.
+    /// [`Limits::unlimited`] is the range of the float itself, so a command is always finite.
+    ///
+    /// ```
+    /// use bowden::control::Limits;
+    /// let limits = Limits::try_new(-5.0, 20.0)?.with_slew(1000.0)?;
+    /// assert_eq!(limits.apply(0.0, 9.0, 0.001), 1.0); // 1000/s for 1 ms
+    /// assert_eq!(limits.apply(19.5, 90.0, 0.001), 20.0);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct Limits<T> {
+        low: T,
+        high: T,
+        slew: Option<T>,
+    }
+    => {
+        let limits = Self::try_new(low, high)?;
+        slew.map_or(Ok(limits), |slew| limits.with_slew(slew))
+    }
 }
 
 crate::checked! {
@@ -126,15 +129,4 @@ impl<T: Real> Limits<T> {
 #[inline]
 pub(crate) fn around<T: Real>(last: T, reach: T) -> (T, T) {
     (last - reach, last + reach)
-}
-
-crate::checked::deserialize_checked! {
-    Limits<T> {
-        low: T,
-        high: T,
-        slew: Option<T>,
-    } => {
-        let limits = Self::try_new(low, high)?;
-        slew.map_or(Ok(limits), |slew| limits.with_slew(slew))
-    }
 }

@@ -42,6 +42,7 @@ pub(crate) mod pid;
 mod relay;
 pub(crate) mod status;
 
+pub(crate) use adaptive::End;
 pub use adaptive::{
     Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveSettings, AdaptiveState, AdaptiveTerms,
     Disturbance, ErrorState, Estimator, Form, LagRecursion, Leakage, OnMissing, SmoothSign,

@@ -39,54 +39,58 @@ use state::{lag, Lags};
 #[path = "../../proofs/observer.rs"]
 mod proofs;
 
-/// The observer: nominal plant, filter, latency, and the limit of its estimate.
-///
-/// With `s = dt/(tau + dt)` for both lags of Q, in the implicit form of
-/// [`Derivative`](crate::signal::Derivative), and `h/L` for the latency L:
-///
-/// ```text
-/// w0⁺ = w0 + min(h/L, 1)·(u_sent − w0)    w1⁺ = w1 + s·(w0⁺ − w1)    w2⁺ = w2 + s·(w1⁺ − w2)
-///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
-/// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
-/// ```
-/// The lags are stable at any `dt`, which may vary. The loop around them requires a `dt` well below
-/// tau. Without a latency the command still affects the output one sample later. Above `1/tau`,
-/// white noise on y reaches the command with a factor of about `1/(alpha·(wn·tau)²)`.
-///
-/// ```
-/// use bowden::control::{
-///     Controller, DisturbanceObserver, Fallback, Limits, LoopSample, NominalPlant, ObserverInput,
-///     ObserverState, Pid, PidSettings,
-/// };
-/// # fn main() -> Result<(), bowden::Error> {
-/// let plant = NominalPlant::try_new(0.6_f32, 25.5, 0.265)?;
-/// // Q of 10 Hz; at most 30 units; a sample within 5 ms; a latency of 3 ms.
-/// let observer = DisturbanceObserver::try_new(plant, 0.0159, 30.0, 0.005)?.with_latency(0.003)?;
-/// let (limits, fallback) = (Limits::try_new(-20.0, 90.0)?, Fallback::try_new(20, 0.0)?);
-/// let pi = Pid::try_new(PidSettings::new(12.0, 60.0, limits, 0.005, fallback))?;
-///
-/// let (mut observed, mut state) = (ObserverState::new(), pi.start());
-/// let (dt, measured) = (0.001, 3.0); // [s], [N·m]: each tick, from the clock and the sensor
-/// let sent = Controller::command(&pi, &state); // the applied command of the last tick
-/// let seen = observer.step(&mut observed, &ObserverInput { dt, sent, measured });
-/// let sample = LoopSample { feed_forward: seen.estimate, ..LoopSample::new(dt, 5.0, measured) };
-/// let out = Controller::step(&pi, &mut state, &sample);
-/// assert!(limits.contains(out.command));
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct DisturbanceObserver<T> {
-    plant: NominalPlant<T>,
-    time_constant: T,
-    limit: T,
-    longest_dt: T,
-    latency: T,
-    /// Q·P⁻¹ of z2, of z1 − z2 and of y − 2·z1 + z2.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    inverse: [T; 3],
+crate::checked::stored! {
+    /// The observer: nominal plant, filter, latency, and the limit of its estimate.
+    ///
+    /// With `s = dt/(tau + dt)` for both lags of Q, in the implicit form of
+    /// [`Derivative`](crate::signal::Derivative), and `h/L` for the latency L:
+    ///
+    /// ```text
+    /// w0⁺ = w0 + min(h/L, 1)·(u_sent − w0)    w1⁺ = w1 + s·(w0⁺ − w1)    w2⁺ = w2 + s·(w1⁺ − w2)
+    ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
+    /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
+    /// ```
+    /// The lags are stable at any `dt`, which may vary. The loop around them requires a `dt` well below
+    /// tau. Without a latency the command still affects the output one sample later. Above `1/tau`,
+    /// white noise on y reaches the command with a factor of about `1/(alpha·(wn·tau)²)`.
+    ///
+    /// ```
+    /// use bowden::control::{
+    ///     Controller, DisturbanceObserver, Fallback, Limits, LoopSample, NominalPlant, ObserverInput,
+    ///     ObserverState, Pid, PidSettings,
+    /// };
+    /// # fn main() -> Result<(), bowden::Error> {
+    /// let plant = NominalPlant::try_new(0.6_f32, 25.5, 0.265)?;
+    /// // Q of 10 Hz; at most 30 units; a sample within 5 ms; a latency of 3 ms.
+    /// let observer = DisturbanceObserver::try_new(plant, 0.0159, 30.0, 0.005)?.with_latency(0.003)?;
+    /// let (limits, fallback) = (Limits::try_new(-20.0, 90.0)?, Fallback::try_new(20, 0.0)?);
+    /// let pi = Pid::try_new(PidSettings::new(12.0, 60.0, limits, 0.005, fallback))?;
+    ///
+    /// let (mut observed, mut state) = (ObserverState::new(), pi.start());
+    /// let (dt, measured) = (0.001, 3.0); // [s], [N·m]: each tick, from the clock and the sensor
+    /// let sent = Controller::command(&pi, &state); // the applied command of the last tick
+    /// let seen = observer.step(&mut observed, &ObserverInput { dt, sent, measured });
+    /// let sample = LoopSample { feed_forward: seen.estimate, ..LoopSample::new(dt, 5.0, measured) };
+    /// let out = Controller::step(&pi, &mut state, &sample);
+    /// assert!(limits.contains(out.command));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub struct DisturbanceObserver<T> {
+        plant: NominalPlant<T>,
+        time_constant: T,
+        limit: T,
+        longest_dt: T,
+        #[serde(default = "T::zero")]
+        latency: T,
+        /// Q·P⁻¹ of z2, of z1 − z2 and of y − 2·z1 + z2.
+        #[serde(skip)]
+        inverse: [T; 3],
+    }
+    => {
+        Self::try_new(plant, time_constant, limit, longest_dt)?
+            .with_latency(latency)
+    }
 }
 
 /// One sample for a [`DisturbanceObserver`].
@@ -283,19 +287,5 @@ impl<T: Real> DisturbanceObserver<T> {
         let fall = z1.value - z2.value;
         let bend = (measured - z1.value) - fall;
         w2.value - (position * z2.value + rate * fall + curvature * bend)
-    }
-}
-
-crate::checked::deserialize_checked! {
-    DisturbanceObserver<T> {
-        plant: NominalPlant<T>,
-        time_constant: T,
-        limit: T,
-        longest_dt: T,
-        #[serde(default = "T::zero")]
-        latency: T,
-    } => {
-        Self::try_new(plant, time_constant, limit, longest_dt)?
-            .with_latency(latency)
     }
 }

@@ -61,18 +61,6 @@ use step::stopped;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "PidSettings<T>",
-        into = "PidSettings<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 pub struct Pid<T> {
     settings: PidSettings<T>,
     /// [`PidSettings::is_plain`], cached so that a step tests it once.
@@ -392,3 +380,5 @@ impl<T: Real> Pid<T> {
         self.proportional(at) - self.settings.k_d * damped + at.feed_forward
     }
 }
+
+crate::checked::stored_as! { Pid<T> as PidSettings<T>: |pid| pid.settings, Pid::try_new }

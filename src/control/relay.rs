@@ -106,18 +106,6 @@ mod proofs;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "RelaySettings<T>",
-        into = "RelaySettings<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 pub struct Relay<T> {
     settings: RelaySettings<T>,
 }
@@ -152,7 +140,16 @@ pub enum RelayFailure {
 /// Phase of a relay experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        rename_all = "kebab-case",
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
+)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RelayPhase<T> {
     /// The relay switches.
@@ -177,7 +174,6 @@ impl<T: Real> RelayPhase<T> {
 
 /// Output of a [`Relay`]'s step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RelayOutput<T> {
     /// Command for the drive \[command unit\]: finite and within the limits.
@@ -334,3 +330,5 @@ impl<T: Real> RelayState<T> {
         self.phase.is_running()
     }
 }
+
+crate::checked::stored_as! { Relay<T> as RelaySettings<T>: |relay| relay.settings, Relay::try_new }

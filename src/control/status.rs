@@ -82,33 +82,42 @@ impl Status {
     }
 }
 
-/// The safe command after repeated bad samples.
-///
-/// A score counts the bad samples: a bad sample adds the weight, and a good sample subtracts 1. At
-/// `after·weight` the safe command is applied and latched. The safe command is therefore applied
-/// - at the `after`-th bad sample in a row, and
-/// - at the latest after any n samples with B bad ones if `(weight + 1)·B − n ≥ after·weight`.
-///
-/// With weight 4 the second condition is met if more than one sample in five is bad for long
-/// enough. A single good sample does not reset the score.
-///
-/// ```
-/// use bowden::control::Fallback;
-/// let fallback = Fallback::try_new(10, 0.0)?; // zero from the tenth consecutive bad sample onward
-/// assert_eq!((fallback.after(), fallback.command()), (10, Some(0.0)));
-/// assert_eq!(fallback.weight(), 4);
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Fallback<T> {
-    after: u32,
-    weight: u32,
-    /// `after·weight`, stored to avoid a multiplication at a bad sample.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    most: u32,
-    command: Option<T>,
+crate::checked::stored! {
+    /// The safe command after repeated bad samples.
+    ///
+    /// A score counts the bad samples: a bad sample adds the weight, and a good sample subtracts 1. At
+    /// `after·weight` the safe command is applied and latched. The safe command is therefore applied
+    /// - at the `after`-th bad sample in a row, and
+    /// - at the latest after any n samples with B bad ones if `(weight + 1)·B − n ≥ after·weight`.
+    ///
+    /// With weight 4 the second condition is met if more than one sample in five is bad for long
+    /// enough. A single good sample does not reset the score.
+    ///
+    /// ```
+    /// use bowden::control::Fallback;
+    /// let fallback = Fallback::try_new(10, 0.0)?; // zero from the tenth consecutive bad sample onward
+    /// assert_eq!((fallback.after(), fallback.command()), (10, Some(0.0)));
+    /// assert_eq!(fallback.weight(), 4);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct Fallback<T> {
+        after: u32,
+        #[serde(default = "usual")]
+        weight: u32,
+        /// `after·weight`, stored to avoid a multiplication at a bad sample.
+        #[serde(skip)]
+        most: u32,
+        command: Option<T>,
+    }
+    => {
+        let hold = Self::hold_indefinitely();
+        match command {
+            Some(command) => Self::try_new(after, command)?.with_weight(weight),
+            None if (after, weight) == (hold.after, hold.weight) => Ok(hold),
+            // A line that was lost must not take the safe command away.
+            None => Err(Error::Inadmissible("a fallback must have a safe command")),
+        }
+    }
 }
 
 /// Default number of good samples that cancel a bad one: the safe command is then applied if
@@ -263,15 +272,14 @@ pub enum Applied<T> {
     AtLowerLimit,
 }
 
-/// The applied command, the score of the bad samples, and whether the loop is closed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct Held<T> {
-    pub(crate) command: T,
-    pub(crate) score: u32,
-    pub(crate) latch: Latch,
+crate::checked::stored! {
+    /// The applied command, the score of the bad samples, and whether the loop is closed.
+    #[derive(Default)]
+    pub(crate) struct Held<T> {
+        pub(crate) command: T,
+        pub(crate) score: u32,
+        pub(crate) latch: Latch,
+    }
 }
 
 impl<T: Real> Held<T> {
@@ -430,23 +438,6 @@ pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
 /// The fault of a number that is not finite.
 pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
     (!number.is_finite()).then_some(fault)
-}
-
-crate::checked::deserialize_checked! {
-    Fallback<T> {
-        after: u32,
-        #[serde(default = "usual")]
-        weight: u32,
-        command: Option<T>,
-    } => {
-        let hold = Self::hold_indefinitely();
-        match command {
-            Some(command) => Self::try_new(after, command)?.with_weight(weight),
-            None if (after, weight) == (hold.after, hold.weight) => Ok(hold),
-            // A line that was lost must not take the safe command away.
-            None => Err(Error::Inadmissible("a fallback must have a safe command")),
-        }
-    }
 }
 
 #[cfg(feature = "serde")]

@@ -27,15 +27,15 @@ macro_rules! effect {
         $crate::effect::declare::effect! { @ $effect, $effect, [Ok($effect)] {} $($rest)+ }
     };
 
-    ($(#[$doc:meta])* $effect:ident {
-        $($(#[$field_doc:meta])* $field:ident: $range:ident, $dimension:expr;)+
+    ($(#[doc = $doc:expr])* $effect:ident {
+        $($(#[doc = $field_doc:expr])* $field:ident: $range:ident, $dimension:expr;)+
     } $($rest:tt)+) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        pub struct $effect<T> {
-            $($(#[$field_doc])* $field: T),+
+        $crate::checked::stored! {
+            $(#[doc = $doc])*
+            pub struct $effect<T> {
+                $($(#[doc = $field_doc])* $field: T,)+
+            }
+            => { Self::try_new($($field),+) }
         }
 
         impl<T> $crate::effect::info::sealed::Sealed for $effect<T> {}
@@ -51,10 +51,6 @@ macro_rules! effect {
                     $($field: $crate::effect::Range::$range.check($field, stringify!($field))?),+
                 })
             }
-        }
-
-        $crate::checked::deserialize_checked! {
-            $effect<T> { $($field: T,)+ } => { Self::try_new($($field),+) }
         }
 
         $crate::effect::declare::effect! {

@@ -63,15 +63,15 @@ impl<T: Real> Inputs<T> {
     }
 }
 
-/// The memory of one effect: a few numbers, or none before the first sample.
-///
-/// The meaning of the numbers depends on the effect, so a state belongs to one effect.
-/// `EffectState::default()` is a new state.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct EffectState<T> {
-    pub(super) memory: Option<[T; 4]>,
+crate::checked::stored! {
+    /// The memory of one effect: a few numbers, or none before the first sample.
+    ///
+    /// The meaning of the numbers depends on the effect, so a state belongs to one effect.
+    /// `EffectState::default()` is a new state.
+    #[derive(Default)]
+    pub struct EffectState<T> {
+        pub(super) memory: Option<[T; 4]>,
+    }
 }
 
 impl<T> EffectState<T> {
@@ -79,25 +79,5 @@ impl<T> EffectState<T> {
     #[must_use]
     pub const fn new() -> Self {
         Self { memory: None }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<'de, T> serde::Deserialize<'de> for EffectState<T>
-where
-    T: Real + serde::Deserialize<'de>,
-{
-    /// Rejects a memory that is not finite.
-    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        #[derive(serde::Deserialize)]
-        struct Fields<T> {
-            memory: Option<[T; 4]>,
-        }
-        let Fields { memory } = Fields::<T>::deserialize(from)?;
-        if memory.iter().flatten().all(|value| value.is_finite()) {
-            Ok(Self { memory })
-        } else {
-            Err(serde::de::Error::custom(crate::Error::NonFinite("memory")))
-        }
     }
 }

@@ -42,7 +42,10 @@ macro_rules! effects {
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(
             rename_all = "kebab-case",
-            bound(deserialize = "T: Real + serde::Deserialize<'de>")
+            bound(
+                serialize = "T: Real + serde::Serialize",
+                deserialize = "T: Real + serde::Deserialize<'de>"
+            )
         ))]
         #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         enum Kind<T> {
@@ -190,7 +193,13 @@ effects! {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    serde(transparent, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+    serde(
+        transparent,
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Effect<T>(Kind<T>);

@@ -29,18 +29,6 @@ use core::fmt;
 /// # }
 /// ```
 #[derive(Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Parameters<T>",
-        into = "Parameters<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 pub struct BoucWen<T> {
     rho: T,
     sigma: T,
@@ -365,21 +353,10 @@ struct Parameters<T> {
     n: T,
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> From<BoucWen<T>> for Parameters<T> {
-    fn from(shape: BoucWen<T>) -> Self {
-        Self {
-            rho: shape.rho,
-            sigma: shape.sigma,
-            n: shape.constants.n,
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parameters<T>> for BoucWen<T> {
-    type Error = Error;
-    fn try_from(stored: Parameters<T>) -> Result<Self, Error> {
-        Self::try_new(stored.rho, stored.sigma, stored.n)
-    }
+crate::checked::stored_as! {
+    BoucWen<T> as Parameters<T>: |shape| Parameters {
+        rho: shape.rho,
+        sigma: shape.sigma,
+        n: shape.n(),
+    }, |it: Parameters<T>| BoucWen::try_new(it.rho, it.sigma, it.n)
 }

@@ -16,18 +16,6 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Stored<T>",
-        into = "Stored<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 pub struct BoucWenState<T> {
     pub(super) eta: T,
     /// Infinite before the first sample: the change to an infinity is NaN, and a step needs no
@@ -98,27 +86,18 @@ struct Stored<T> {
     primed: bool,
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> From<BoucWenState<T>> for Stored<T> {
-    fn from(state: BoucWenState<T>) -> Self {
-        Self {
-            eta: state.eta,
-            input: state.input().unwrap_or_else(T::zero),
-            primed: state.input().is_some(),
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Stored<T>> for BoucWenState<T> {
-    type Error = Error;
-    fn try_from(stored: Stored<T>) -> Result<Self, Error> {
+crate::checked::stored_as! {
+    BoucWenState<T> as Stored<T>: |state| Stored {
+        eta: state.eta,
+        input: state.input().unwrap_or(T::ZERO),
+        primed: state.input().is_some(),
+    }, |stored: Stored<T>| {
         let input = finite(stored.input, "input")?;
-        let mut state = Self::with_eta(stored.eta)?;
+        let mut state = BoucWenState::with_eta(stored.eta)?;
         if stored.primed {
             state.input = input;
         }
-        Ok(state)
+        Ok::<_, Error>(state)
     }
 }
 

@@ -1,6 +1,7 @@
 //! A second-order low-pass and a notch.
 
 use super::Compensated;
+use crate::checked::Finite;
 use crate::error::above_zero;
 use crate::real::{as_f64, of};
 use crate::{Error, Real};
@@ -53,18 +54,6 @@ mod prewarped;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Design<T>",
-        into = "Design<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 pub struct Biquad<T> {
     design: Design<T>,
     /// `tan(π·frequency·T)/T`: times dt, the gain of an integrator.
@@ -94,37 +83,21 @@ enum Response {
     Notch,
 }
 
-/// State of a [`Biquad`]: two integrators and the output, empty before the first good sample.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BiquadState<T> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    value: Option<T>,
-    /// The integrator of the band-pass: zero at rest.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    band: T,
-    /// The integrator of the low-pass: the input, at rest.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    low: T,
-    /// Rounding error of each integrator.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default = "T::zero", deserialize_with = "super::stored::number")
-    )]
-    band_carry: T,
-    #[cfg_attr(
-        feature = "serde",
-        serde(default = "T::zero", deserialize_with = "super::stored::number")
-    )]
-    low_carry: T,
+crate::checked::stored! {
+    /// State of a [`Biquad`]: two integrators and the output, empty before the first good sample.
+    #[derive(Default)]
+    pub struct BiquadState<T> {
+        value: Option<T>,
+        /// The integrator of the band-pass: zero at rest.
+        band: T,
+        /// The integrator of the low-pass: the input, at rest.
+        low: T,
+        /// Rounding error of each integrator.
+        #[serde(default = "T::zero")]
+        band_carry: T,
+        #[serde(default = "T::zero")]
+        low_carry: T,
+    }
 }
 
 crate::checked! {
@@ -250,7 +223,7 @@ impl<T: Real> Biquad<T> {
             low: low.value,
             low_carry: low.carry,
         };
-        if next.is_finite() {
+        if next.all_finite() {
             next
         } else {
             BiquadState::at(sample)
@@ -303,26 +276,6 @@ impl<T: Real> BiquadState<T> {
     pub fn value(&self) -> T {
         self.value.unwrap_or(T::ZERO)
     }
-
-    #[inline]
-    fn is_finite(&self) -> bool {
-        let integrators = self.band.is_finite() && self.low.is_finite();
-        let carries = self.band_carry.is_finite() && self.low_carry.is_finite();
-        integrators && carries && self.value().is_finite()
-    }
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> From<Biquad<T>> for Design<T> {
-    fn from(filter: Biquad<T>) -> Self {
-        filter.design
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Design<T>> for Biquad<T> {
-    type Error = Error;
-    fn try_from(raw: Design<T>) -> Result<Self, Error> {
-        designed(raw)
-    }
-}
+crate::checked::stored_as! { Biquad<T> as Design<T>: |filter| filter.design, designed }

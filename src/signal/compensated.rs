@@ -4,32 +4,34 @@ use super::clamp;
 use crate::error::rarely;
 use crate::Real;
 
-/// A running sum with the rounding error of its last addition.
-///
-/// Integrals and estimates move by a small increment each sample. In `f32` an increment below half
-/// an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves an
-/// estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
-///
-/// ```
-/// use bowden::signal::Compensated;
-/// let mut plain = 1.0_f32;
-/// let mut sum = Compensated::new(1.0_f32);
-/// for _ in 0..1_000_000 {
-///     plain += 1e-8;
-///     sum = sum.plus(1e-8);
-/// }
-/// assert_eq!(plain, 1.0); // a million increments, all lost
-/// assert!((sum.value - 1.01).abs() < 1e-6);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Compensated<T> {
-    /// The sum.
-    pub value: T,
-    /// The carry (rounding error): it is added together with the next increment.
-    pub carry: T,
+crate::checked::stored! {
+    /// A running sum with the rounding error of its last addition.
+    ///
+    /// Integrals and estimates move by a small increment each sample. In `f32` an increment below half
+    /// an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves an
+    /// estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
+    ///
+    /// ```
+    /// use bowden::signal::Compensated;
+    /// let mut plain = 1.0_f32;
+    /// let mut sum = Compensated::new(1.0_f32);
+    /// for _ in 0..1_000_000 {
+    ///     plain += 1e-8;
+    ///     sum = sum.plus(1e-8);
+    /// }
+    /// assert_eq!(plain, 1.0); // a million increments, all lost
+    /// assert!((sum.value - 1.01).abs() < 1e-6);
+    /// ```
+    #[derive(Default)]
+    pub struct Compensated<T> {
+        /// The sum.
+        pub value: T,
+        /// The carry (rounding error): it is added together with the next increment.
+        pub carry: T,
+    }
+    => {
+        Ok(Self { value, carry })
+    }
 }
 
 impl<T: Real> Compensated<T> {
@@ -64,12 +66,6 @@ impl<T: Real> Compensated<T> {
             // Zero, or NaN of a carry that is not finite.
             carry: self.carry * T::ZERO,
         }
-    }
-
-    /// Whether both numbers are finite.
-    #[cfg(any(feature = "serde", kani))]
-    pub(crate) fn is_finite(&self) -> bool {
-        self.value.is_finite() && self.carry.is_finite()
     }
 }
 

@@ -3,47 +3,40 @@
 use crate::error::{not_below_zero, rarely};
 use crate::{Error, Real};
 
-/// First-order filtered derivative with a time constant \[s\].
-///
-/// `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient, filtered by the first-order
-/// lag in its implicit (backward Euler) form. This form is stable for any `dt` and needs no
-/// exponential. `dt` may vary. The rate starts at zero with the first sample, without a kick.
-///
-/// ```
-/// use bowden::signal::{Derivative, DerivativeState};
-/// # fn main() -> Result<(), bowden::Error> {
-/// let derivative = Derivative::try_new(0.01)?; // \[s\]
-/// let mut state = DerivativeState::new();
-/// for k in 0..200 {
-///     derivative.step(&mut state, 3.0 * 1e-3 * f64::from(k), 1e-3);
-/// }
-/// assert!((state.rate() - 3.0).abs() < 1e-6); // after 20 time constants
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Derivative<T> {
-    time_constant: T,
+crate::checked::stored! {
+    /// First-order filtered derivative with a time constant \[s\].
+    ///
+    /// `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient, filtered by the first-order
+    /// lag in its implicit (backward Euler) form. This form is stable for any `dt` and needs no
+    /// exponential. `dt` may vary. The rate starts at zero with the first sample, without a kick.
+    ///
+    /// ```
+    /// use bowden::signal::{Derivative, DerivativeState};
+    /// # fn main() -> Result<(), bowden::Error> {
+    /// let derivative = Derivative::try_new(0.01)?; // \[s\]
+    /// let mut state = DerivativeState::new();
+    /// for k in 0..200 {
+    ///     derivative.step(&mut state, 3.0 * 1e-3 * f64::from(k), 1e-3);
+    /// }
+    /// assert!((state.rate() - 3.0).abs() < 1e-6); // after 20 time constants
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub struct Derivative<T> {
+        time_constant: T,
+    }
+    => {
+        Self::try_new(time_constant)
+    }
 }
 
-/// State of a [`Derivative`]: the last good sample and the filtered rate.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct DerivativeState<T> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    last: Option<T>,
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    rate: T,
+crate::checked::stored! {
+    /// State of a [`Derivative`]: the last good sample and the filtered rate.
+    #[derive(Default)]
+    pub struct DerivativeState<T> {
+        last: Option<T>,
+        rate: T,
+    }
 }
 
 crate::checked! {
@@ -156,13 +149,5 @@ impl<T: Real> DerivativeState<T> {
     #[must_use]
     pub fn rate(&self) -> T {
         self.rate
-    }
-}
-
-crate::checked::deserialize_checked! {
-    Derivative<T> {
-        time_constant: T,
-    } => {
-        Self::try_new(time_constant)
     }
 }

@@ -4,63 +4,66 @@ use super::{clamp, RatesFault};
 use crate::error::above_zero;
 use crate::{Error, Real};
 
-/// Velocity from the time between counts: period measurement, or M/T method.
-///
-/// If a counter changes less than once per sample, its difference quotient is zero or a whole count
-/// per `dt`. Between two samples with counts, the axis has moved by M counts in a time T, which is
-/// known to one `dt`:
-///
-/// ```text
-/// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
-/// |v| ≤ count/(time since the last count)     at every other sample
-/// ```
-/// * **Error** at a constant speed of `f` counts per second: the relative error is at most
-///   `f·dt/(1 − f·dt)` while `f·dt < 1` (one sample in the time of one count). At any speed it
-///   is at most `dt/tau·min(1, 1/(f·dt))`. Reason: the linearly interpolated counter is nowhere
-///   further than `min(1, f·dt)` of a count from the axis, and the lag divides this distance by
-///   tau.
-/// * **Delay** of slow changes at a count: `T·(1/2 + q/(1 − q))` with `q = e^(−T/tau)`. This is
-///   half the time between counts if that time is longer than tau, and tau at high speed. Until
-///   the next count the velocity is held, on average for a further `T/2`.
-/// * **Stop**: the bound falls as `count/t`. After `longest_gap` without a count the velocity
-///   is zero and the status is [`EdgeStatus::Stopped`]. Speeds below `count/longest_gap` read
-///   as stopped.
-/// * **Reversal**: a count in the opposite direction passes the same encoder line as the previous
-///   count. The axis has therefore moved by one count less. Dither of one count gives zero
-///   velocity.
-/// * **Start**: the first count only locates a line; the second count gives the first velocity.
-/// * **Bad samples** do not change the velocity. Their time counts. After a `dt` that is
-///   negative or not finite the time is unknown, and the next count starts a new interval.
-///
-/// Source: T. Ohmae et al., *A microprocessor-controlled high-accuracy wide-range speed
-/// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method). Use
-/// [`Rates`](super::Rates) for positions that change in every sample.
-///
-/// ```
-/// use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
-/// // A 12-bit counter, averaged over 10 ms; stopped after 0.2 s: speeds above 5 counts/s.
-/// let velocity = EdgeVelocity::try_new(1.0, 0.01, 0.2)?.with_period(4096.0)?;
-/// let mut state = EdgeVelocityState::new();
-/// for k in 0..1000_u32 {
-///     let counter = (4090 + k / 50) % 4096; // 20 counts/s in a loop of 1 kHz
-///     velocity.step(&mut state, counter as f32, 0.001);
-/// }
-/// assert!((state.velocity() - 20.0).abs() < 0.001);
-/// for _ in 0..201 {
-///     velocity.step(&mut state, 13.0, 0.001);
-/// }
-/// let out = velocity.step(&mut state, 13.0, 0.001);
-/// assert_eq!((out.velocity, out.status), (0.0, EdgeStatus::Stopped));
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct EdgeVelocity<T> {
-    count: T,
-    time_constant: T,
-    longest_gap: T,
-    period: Option<T>,
+crate::checked::stored! {
+    /// Velocity from the time between counts: period measurement, or M/T method.
+    ///
+    /// If a counter changes less than once per sample, its difference quotient is zero or a whole count
+    /// per `dt`. Between two samples with counts, the axis has moved by M counts in a time T, which is
+    /// known to one `dt`:
+    ///
+    /// ```text
+    /// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
+    /// |v| ≤ count/(time since the last count)     at every other sample
+    /// ```
+    /// * **Error** at a constant speed of `f` counts per second: the relative error is at most
+    ///   `f·dt/(1 − f·dt)` while `f·dt < 1` (one sample in the time of one count). At any speed it
+    ///   is at most `dt/tau·min(1, 1/(f·dt))`. Reason: the linearly interpolated counter is nowhere
+    ///   further than `min(1, f·dt)` of a count from the axis, and the lag divides this distance by
+    ///   tau.
+    /// * **Delay** of slow changes at a count: `T·(1/2 + q/(1 − q))` with `q = e^(−T/tau)`. This is
+    ///   half the time between counts if that time is longer than tau, and tau at high speed. Until
+    ///   the next count the velocity is held, on average for a further `T/2`.
+    /// * **Stop**: the bound falls as `count/t`. After `longest_gap` without a count the velocity
+    ///   is zero and the status is [`EdgeStatus::Stopped`]. Speeds below `count/longest_gap` read
+    ///   as stopped.
+    /// * **Reversal**: a count in the opposite direction passes the same encoder line as the previous
+    ///   count. The axis has therefore moved by one count less. Dither of one count gives zero
+    ///   velocity.
+    /// * **Start**: the first count only locates a line; the second count gives the first velocity.
+    /// * **Bad samples** do not change the velocity. Their time counts. After a `dt` that is
+    ///   negative or not finite the time is unknown, and the next count starts a new interval.
+    ///
+    /// Source: T. Ohmae et al., *A microprocessor-controlled high-accuracy wide-range speed
+    /// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method). Use
+    /// [`Rates`](super::Rates) for positions that change in every sample.
+    ///
+    /// ```
+    /// use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
+    /// // A 12-bit counter, averaged over 10 ms; stopped after 0.2 s: speeds above 5 counts/s.
+    /// let velocity = EdgeVelocity::try_new(1.0, 0.01, 0.2)?.with_period(4096.0)?;
+    /// let mut state = EdgeVelocityState::new();
+    /// for k in 0..1000_u32 {
+    ///     let counter = (4090 + k / 50) % 4096; // 20 counts/s in a loop of 1 kHz
+    ///     velocity.step(&mut state, counter as f32, 0.001);
+    /// }
+    /// assert!((state.velocity() - 20.0).abs() < 0.001);
+    /// for _ in 0..201 {
+    ///     velocity.step(&mut state, 13.0, 0.001);
+    /// }
+    /// let out = velocity.step(&mut state, 13.0, 0.001);
+    /// assert_eq!((out.velocity, out.status), (0.0, EdgeStatus::Stopped));
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct EdgeVelocity<T> {
+        count: T,
+        time_constant: T,
+        longest_gap: T,
+        period: Option<T>,
+    }
+    => {
+        let edges = Self::try_new(count, time_constant, longest_gap)?;
+        period.map_or(Ok(edges), |period| edges.with_period(period))
+    }
 }
 
 /// Validity of a velocity from [`EdgeVelocity`].
@@ -90,32 +93,19 @@ pub struct EdgeVelocityOutput<T> {
     pub status: EdgeStatus,
 }
 
-/// State of an [`EdgeVelocity`]: the last position, its last count and the velocity.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct EdgeVelocityState<T> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    last: Option<T>,
-    /// Whether the last count went up; none before the first one.
-    went_up: Option<bool>,
-    /// Time since the last count, as far as it is known.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    gap: T,
-    /// Whether an additional unknown time has passed.
-    time_unknown: bool,
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    velocity: Option<T>,
+crate::checked::stored! {
+    /// State of an [`EdgeVelocity`]: the last position, its last count and the velocity.
+    #[derive(Default)]
+    pub struct EdgeVelocityState<T> {
+        last: Option<T>,
+        /// Whether the last count went up; none before the first one.
+        went_up: Option<bool>,
+        /// Time since the last count, as far as it is known.
+        gap: T,
+        /// Whether an additional unknown time has passed.
+        time_unknown: bool,
+        velocity: Option<T>,
+    }
 }
 
 crate::checked! {
@@ -305,17 +295,5 @@ impl<T: Real> EdgeVelocityState<T> {
         } else {
             EdgeStatus::Settling
         }
-    }
-}
-
-crate::checked::deserialize_checked! {
-    EdgeVelocity<T> {
-        count: T,
-        time_constant: T,
-        longest_gap: T,
-        period: Option<T>,
-    } => {
-        let edges = Self::try_new(count, time_constant, longest_gap)?;
-        period.map_or(Ok(edges), |period| edges.with_period(period))
     }
 }

@@ -4,58 +4,49 @@ use super::Compensated;
 use crate::error::not_below_zero;
 use crate::{Error, Real};
 
-/// First-order low-pass with a time constant \[s\].
-///
-/// `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its implicit (backward Euler)
-/// form. It is stable at any `dt`, which may vary, and needs no exponential. The corner is
-/// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
-///
-/// The first good sample starts the filter at rest: the output is that sample. The output leaves
-/// the range of the samples only through rounding. The output is a [`Compensated`] sum. A plain
-/// `f32` lag stops once its increment is less than half a unit in the last place. With a tau of
-/// 1000·dt it would stop up to 3e-5 of the target away from it.
-///
-/// For a second-order filter, see [`Biquad`](super::Biquad).
-///
-/// ```
-/// use bowden::signal::{LowPass, LowPassState};
-/// let low_pass = LowPass::try_new(0.01_f32)?; // corner at 15.9 Hz
-/// let mut state = LowPassState::new();
-/// assert_eq!(low_pass.step(&mut state, 2.0, 0.001), 2.0); // no transient at the start
-/// assert_eq!(low_pass.step(&mut state, f32::NAN, 0.001), 2.0); // held
-/// for _ in 0..500 {
-///     low_pass.step(&mut state, 5.0, 0.001);
-/// }
-/// assert_eq!(state.value(), 5.0);
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct LowPass<T> {
-    time_constant: T,
+crate::checked::stored! {
+    /// First-order low-pass with a time constant \[s\].
+    ///
+    /// `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its implicit (backward Euler)
+    /// form. It is stable at any `dt`, which may vary, and needs no exponential. The corner is
+    /// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
+    ///
+    /// The first good sample starts the filter at rest: the output is that sample. The output leaves
+    /// the range of the samples only through rounding. The output is a [`Compensated`] sum. A plain
+    /// `f32` lag stops once its increment is less than half a unit in the last place. With a tau of
+    /// 1000·dt it would stop up to 3e-5 of the target away from it.
+    ///
+    /// For a second-order filter, see [`Biquad`](super::Biquad).
+    ///
+    /// ```
+    /// use bowden::signal::{LowPass, LowPassState};
+    /// let low_pass = LowPass::try_new(0.01_f32)?; // corner at 15.9 Hz
+    /// let mut state = LowPassState::new();
+    /// assert_eq!(low_pass.step(&mut state, 2.0, 0.001), 2.0); // no transient at the start
+    /// assert_eq!(low_pass.step(&mut state, f32::NAN, 0.001), 2.0); // held
+    /// for _ in 0..500 {
+    ///     low_pass.step(&mut state, 5.0, 0.001);
+    /// }
+    /// assert_eq!(state.value(), 5.0);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct LowPass<T> {
+        time_constant: T,
+    }
+    => {
+        Self::try_new(time_constant)
+    }
 }
 
-/// State of a [`LowPass`]: its output, empty before the first good sample.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LowPassState<T> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    value: Option<T>,
-    /// Rounding error of the output.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default = "T::zero", deserialize_with = "super::stored::number")
-    )]
-    carry: T,
+crate::checked::stored! {
+    /// State of a [`LowPass`]: its output, empty before the first good sample.
+    #[derive(Default)]
+    pub struct LowPassState<T> {
+        value: Option<T>,
+        /// Rounding error of the output.
+        #[serde(default = "T::zero")]
+        carry: T,
+    }
 }
 
 crate::checked! {
@@ -144,13 +135,5 @@ impl<T: Real> LowPassState<T> {
     #[must_use]
     pub fn value(&self) -> T {
         self.value.unwrap_or(T::ZERO)
-    }
-}
-
-crate::checked::deserialize_checked! {
-    LowPass<T> {
-        time_constant: T,
-    } => {
-        Self::try_new(time_constant)
     }
 }

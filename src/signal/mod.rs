@@ -27,8 +27,6 @@ mod plausible;
 mod play;
 mod ramp;
 mod rates;
-#[cfg(feature = "serde")]
-mod stored;
 
 pub use biquad::{Biquad, BiquadState};
 pub use clamp::clamp;

@@ -4,35 +4,44 @@ use super::gap::gap_after;
 use crate::error::{above_zero, ordered};
 use crate::{Error, Real};
 
-/// Plausibility check of a sensor: range, rate limit and stuck value.
-///
-/// A controller rejects NaN by itself. It cannot detect a finite but wrong reading: an encoder that
-/// was reset, a shorted bridge, or a bus that repeats its last frame. Use a `Plausible` before each
-/// input. It turns an implausible sample into NaN; the controller then holds its command and counts
-/// the sample.
-///
-/// ```
-/// use bowden::signal::{Implausible, Plausible, PlausibleState};
-/// // Acceleration of the pulley [rad/s²]: ±500, and at most 2e5 rad/s³.
-/// let plausible = Plausible::try_new(-500.0, 500.0)?.with_rate(2e5)?.with_stuck_after(50);
-/// let mut state = PlausibleState::new();
-/// assert_eq!(plausible.step(&mut state, 3.0, 0.001, true).value, 3.0);
-///
-/// let spike = plausible.step(&mut state, 6e5_f32, 0.001, true); // the encoder was reset
-/// assert_eq!(spike.fault, Some(Implausible::OutOfRange));
-/// assert!(spike.value.is_nan());
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Plausible<T> {
-    low: T,
-    high: T,
-    rate: Option<T>,
-    sample_period: Option<T>,
-    stuck_after: u32,
-    longest_dt: T,
+crate::checked::stored! {
+    /// Plausibility check of a sensor: range, rate limit and stuck value.
+    ///
+    /// A controller rejects NaN by itself. It cannot detect a finite but wrong reading: an encoder that
+    /// was reset, a shorted bridge, or a bus that repeats its last frame. Use a `Plausible` before each
+    /// input. It turns an implausible sample into NaN; the controller then holds its command and counts
+    /// the sample.
+    ///
+    /// ```
+    /// use bowden::signal::{Implausible, Plausible, PlausibleState};
+    /// // Acceleration of the pulley [rad/s²]: ±500, and at most 2e5 rad/s³.
+    /// let plausible = Plausible::try_new(-500.0, 500.0)?.with_rate(2e5)?.with_stuck_after(50);
+    /// let mut state = PlausibleState::new();
+    /// assert_eq!(plausible.step(&mut state, 3.0, 0.001, true).value, 3.0);
+    ///
+    /// let spike = plausible.step(&mut state, 6e5_f32, 0.001, true); // the encoder was reset
+    /// assert_eq!(spike.fault, Some(Implausible::OutOfRange));
+    /// assert!(spike.value.is_nan());
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct Plausible<T> {
+        low: T,
+        high: T,
+        rate: Option<T>,
+        sample_period: Option<T>,
+        #[serde(default)]
+        stuck_after: u32,
+        #[serde(default = "crate::checked::any_dt")]
+        longest_dt: T,
+    }
+    => {
+        let range = Self::try_new(low, high)?
+            .with_stuck_after(stuck_after)
+            .with_longest_dt(longest_dt)?;
+        let rated = rate.map_or(Ok(range), |rate| range.with_rate(rate))?;
+        let period = sample_period;
+        period.map_or(Ok(rated), |period| rated.with_sample_period(period))
+    }
 }
 
 /// Why a sample is implausible.
@@ -62,25 +71,16 @@ pub struct PlausibleOutput<T> {
     pub fault: Option<Implausible>,
 }
 
-/// State of a [`Plausible`]: the last plausible sample, and its age.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PlausibleState<T> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    last: Option<T>,
-    /// Time in which the signal may have moved since the measurement of `last`, up to the last
-    /// checked sample \[s\].
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    gap: T,
-    same: u32,
+crate::checked::stored! {
+    /// State of a [`Plausible`]: the last plausible sample, and its age.
+    #[derive(Default)]
+    pub struct PlausibleState<T> {
+        last: Option<T>,
+        /// Time in which the signal may have moved since the measurement of `last`, up to the last
+        /// checked sample \[s\].
+        gap: T,
+        same: u32,
+    }
 }
 
 crate::checked! {
@@ -286,25 +286,5 @@ impl<T: Real> PlausibleState<T> {
     #[must_use]
     pub const fn last(&self) -> Option<T> {
         self.last
-    }
-}
-
-crate::checked::deserialize_checked! {
-    Plausible<T> {
-        low: T,
-        high: T,
-        rate: Option<T>,
-        sample_period: Option<T>,
-        #[serde(default)]
-        stuck_after: u32,
-        #[serde(default = "super::stored::any_dt")]
-        longest_dt: T,
-    } => {
-        let range = Self::try_new(low, high)?
-            .with_stuck_after(stuck_after)
-            .with_longest_dt(longest_dt)?;
-        let rated = rate.map_or(Ok(range), |rate| range.with_rate(rate))?;
-        let period = sample_period;
-        period.map_or(Ok(rated), |period| rated.with_sample_period(period))
     }
 }

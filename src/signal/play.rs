@@ -4,46 +4,40 @@ use super::clamp;
 use crate::error::not_below_zero;
 use crate::{Error, Real};
 
-/// Play of half-width r [input unit]: follows the input at a distance of at most r.
-///
-/// `y⁺ = clamp(y, x - r, x + r)`, so `|y - x| <= r`. An oscillation of the input within 2r does not
-/// move the output. In front of a hysteresis a play prevents reversals from sensor noise. A
-/// half-width of four times the noise's standard deviation is sufficient (see
-/// [`Transmission`](crate::transmission::Transmission)). Source: Krasnosel'skii & Pokrovskii,
-/// *Systems with Hysteresis*, 1989.
-///
-/// ```
-/// use bowden::signal::{Play, PlayState};
-/// # fn main() -> Result<(), bowden::Error> {
-/// let play = Play::try_new(0.5)?;
-/// let mut state = PlayState::new();
-/// assert_eq!(play.step(&mut state, 2.0), 2.0); // the output starts at the first sample
-/// assert_eq!(play.step(&mut state, 3.0), 2.5);
-/// assert_eq!(play.step(&mut state, 2.1), 2.5);
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Play<T> {
-    half_width: T,
+crate::checked::stored! {
+    /// Play of half-width r [input unit]: follows the input at a distance of at most r.
+    ///
+    /// `y⁺ = clamp(y, x - r, x + r)`, so `|y - x| <= r`. An oscillation of the input within 2r does not
+    /// move the output. In front of a hysteresis a play prevents reversals from sensor noise. A
+    /// half-width of four times the noise's standard deviation is sufficient (see
+    /// [`Transmission`](crate::transmission::Transmission)). Source: Krasnosel'skii & Pokrovskii,
+    /// *Systems with Hysteresis*, 1989.
+    ///
+    /// ```
+    /// use bowden::signal::{Play, PlayState};
+    /// # fn main() -> Result<(), bowden::Error> {
+    /// let play = Play::try_new(0.5)?;
+    /// let mut state = PlayState::new();
+    /// assert_eq!(play.step(&mut state, 2.0), 2.0); // the output starts at the first sample
+    /// assert_eq!(play.step(&mut state, 3.0), 2.5);
+    /// assert_eq!(play.step(&mut state, 2.1), 2.5);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub struct Play<T> {
+        half_width: T,
+    }
+    => {
+        Self::try_new(half_width)
+    }
 }
 
-/// State of a [`Play`]: its output, empty before the first sample.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PlayState<T> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, deserialize_with = "super::stored::optional")
-    )]
-    output: Option<T>,
+crate::checked::stored! {
+    /// State of a [`Play`]: its output, empty before the first sample.
+    #[derive(Default)]
+    pub struct PlayState<T> {
+        output: Option<T>,
+    }
 }
 
 crate::checked! {
@@ -102,13 +96,5 @@ impl<T: Real> PlayState<T> {
     #[must_use]
     pub fn output(&self) -> Option<T> {
         self.output
-    }
-}
-
-crate::checked::deserialize_checked! {
-    Play<T> {
-        half_width: T,
-    } => {
-        Self::try_new(half_width)
     }
 }

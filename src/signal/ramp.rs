@@ -4,55 +4,46 @@ use crate::error::{above_zero, not_below_zero};
 use crate::signal::Compensated;
 use crate::{Error, Real};
 
-/// A reference ramp: a rate limit, then a first-order lag.
-///
-/// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-/// reference can demand more than the drive can deliver; the anti-windup, not the gains, then
-/// determines the response.
-///
-/// ```
-/// use bowden::signal::{Ramp, RampState};
-/// let ramp = Ramp::try_new(50.0, 0.02)?; // 50 N·m/s, corners of 20 ms
-/// let mut state = RampState::at(0.0_f32);
-/// for _ in 0..1000 {
-///     ramp.step(&mut state, 25.0, 0.001);
-/// }
-/// assert!((state.value() - 25.0).abs() < 1e-4); // at the target after half a second
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Ramp<T> {
-    rate: T,
-    time_constant: T,
-    longest_dt: T,
+crate::checked::stored! {
+    /// A reference ramp: a rate limit, then a first-order lag.
+    ///
+    /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
+    /// reference can demand more than the drive can deliver; the anti-windup, not the gains, then
+    /// determines the response.
+    ///
+    /// ```
+    /// use bowden::signal::{Ramp, RampState};
+    /// let ramp = Ramp::try_new(50.0, 0.02)?; // 50 N·m/s, corners of 20 ms
+    /// let mut state = RampState::at(0.0_f32);
+    /// for _ in 0..1000 {
+    ///     ramp.step(&mut state, 25.0, 0.001);
+    /// }
+    /// assert!((state.value() - 25.0).abs() < 1e-4); // at the target after half a second
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct Ramp<T> {
+        rate: T,
+        time_constant: T,
+        #[serde(default = "crate::checked::any_dt")]
+        longest_dt: T,
+    }
+    => {
+        Self::try_new(rate, time_constant)?.with_longest_dt(longest_dt)
+    }
 }
 
-/// State of a [`Ramp`]: the ramp and the filtered value.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RampState<T> {
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    ramp: T,
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::number"))]
-    value: T,
-    /// Rounding error of each: at 10 kHz a plain `f32` ramp of 0.005/s would never leave 25.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default = "T::zero", deserialize_with = "super::stored::number")
-    )]
-    ramp_carry: T,
-    #[cfg_attr(
-        feature = "serde",
-        serde(default = "T::zero", deserialize_with = "super::stored::number")
-    )]
-    value_carry: T,
+crate::checked::stored! {
+    /// State of a [`Ramp`]: the ramp and the filtered value.
+    #[derive(Default)]
+    pub struct RampState<T> {
+        ramp: T,
+        value: T,
+        /// Rounding error of each: at 10 kHz a plain `f32` ramp of 0.005/s would never leave 25.
+        #[serde(default = "T::zero")]
+        ramp_carry: T,
+        #[serde(default = "T::zero")]
+        value_carry: T,
+    }
 }
 
 crate::checked! {
@@ -150,16 +141,5 @@ impl<T: Real> RampState<T> {
     #[must_use]
     pub const fn value(&self) -> T {
         self.value
-    }
-}
-
-crate::checked::deserialize_checked! {
-    Ramp<T> {
-        rate: T,
-        time_constant: T,
-        #[serde(default = "super::stored::any_dt")]
-        longest_dt: T,
-    } => {
-        Self::try_new(rate, time_constant)?.with_longest_dt(longest_dt)
     }
 }

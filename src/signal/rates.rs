@@ -5,9 +5,6 @@ use crate::error::{above_zero, must_be_finite};
 use crate::real::of;
 use crate::{Error, Real};
 
-#[cfg(feature = "serde")]
-mod stored;
-
 /// Default: a gap of more than this many time constants restarts the rates.
 const LONGEST_GAP: f64 = 10.0;
 
@@ -17,73 +14,66 @@ const SETTLING: f64 = 5.0;
 /// Corner of [`Rates::for_cutoff`] \[rad/s\] over the cut-off of the fit \[Hz\]: 2.5 times as high.
 const CORNER: f64 = 2.0 * core::f64::consts::PI * 2.5;
 
-/// [`Motion`] (velocity and acceleration) from position samples, with gaps and wrap-around.
-///
-/// ```text
-/// s  = 1 − e^(−h/tau),  h = time since the last good sample
-/// v⁺ = v + s·((x − x_last)/h − v)
-/// a⁺ = a + s·((v⁺ − v)/h − a)
-/// ```
-/// Two [`Derivative`](super::Derivative)s in cascade with one time constant tau. Well below the
-/// sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position is not delayed, the
-/// velocity has a delay of tau, and the acceleration a delay of 2·tau. At `f` \[Hz\] with
-/// `w = 2π·f·tau` the velocity has the gain `1/√(1 + w²)` and the phase lag `atan(w)`. The
-/// acceleration has the square of this gain and twice this lag. At any sample rate, with
-/// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`: a ramp gives its exact slope. The
-/// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
-///
-/// White noise of standard deviation `s_x` on the position gives about `s_x/tau` on the
-/// velocity and `s_x/tau²` on the acceleration. Both are smaller if tau is not far above h.
-///
-/// * **First sample**: the rates start at zero, without a kick. On a moving axis the velocity
-///   approaches the true velocity V as `V·(1 − e^(−t/tau))`. The acceleration has a pulse of
-///   `V/(e·tau)`. The status is [`RatesStatus::Settling`] for five time constants.
-/// * **Bad samples** (a position that is not finite, or a `dt` that is not positive and finite):
-///   the last good motion is held. The status states the fault.
-/// * **Gaps**: the difference spans the time since the last good sample, including missing and bad
-///   samples. After more than [`longest_gap`](Self::longest_gap) the rates restart at zero. After a
-///   `dt` that was negative or not finite the time is unknown. The next good sample then only sets
-///   the position, and the rates are held.
-/// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
-/// * **Long runs**: a position in `f32` has a spacing of up to `2⁻²³·|x|`, which appears as
-///   noise in the rates. At 1000 rad the spacing is 6e-5 rad, so with tau = 10 ms the noise is
-///   up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
-///   modulo its period. The differences are then those of small numbers, an integer counts the
-///   turns, and only the returned position is rounded.
-///
-/// ```
-/// use bowden::signal::{Rates, RatesState, RatesStatus};
-/// # fn main() -> Result<(), bowden::Error> {
-/// // An encoder of 4096 counts per turn on a 12-bit counter; the fit's cut-off was 5 Hz.
-/// let rates = Rates::for_cutoff(5.0_f32)?.with_period(4096.0)?;
-/// let mut state = RatesState::new();
-/// for k in 0..2000_u32 {
-///     let counter = (4000 + 3 * k) % 4096; // 3 counts a millisecond
-///     rates.step(&mut state, counter as f32, 0.001);
-/// }
-/// let out = rates.step(&mut state, ((4000 + 3 * 2000) % 4096) as f32, 0.001);
-/// assert_eq!((out.status, out.motion.position), (RatesStatus::Good, 10_000.0));
-/// assert!((out.motion.velocity - 3000.0).abs() < 0.01); // [counts/s]
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "stored::Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct Rates<T> {
-    time_constant: T,
-    longest_gap: T,
-    period: Option<T>,
+crate::checked::stored! {
+    /// [`Motion`] (velocity and acceleration) from position samples, with gaps and wrap-around.
+    ///
+    /// ```text
+    /// s  = 1 − e^(−h/tau),  h = time since the last good sample
+    /// v⁺ = v + s·((x − x_last)/h − v)
+    /// a⁺ = a + s·((v⁺ − v)/h − a)
+    /// ```
+    /// Two [`Derivative`](super::Derivative)s in cascade with one time constant tau. Well below the
+    /// sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position is not delayed, the
+    /// velocity has a delay of tau, and the acceleration a delay of 2·tau. At `f` \[Hz\] with
+    /// `w = 2π·f·tau` the velocity has the gain `1/√(1 + w²)` and the phase lag `atan(w)`. The
+    /// acceleration has the square of this gain and twice this lag. At any sample rate, with
+    /// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`: a ramp gives its exact slope. The
+    /// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
+    ///
+    /// White noise of standard deviation `s_x` on the position gives about `s_x/tau` on the
+    /// velocity and `s_x/tau²` on the acceleration. Both are smaller if tau is not far above h.
+    ///
+    /// * **First sample**: the rates start at zero, without a kick. On a moving axis the velocity
+    ///   approaches the true velocity V as `V·(1 − e^(−t/tau))`. The acceleration has a pulse of
+    ///   `V/(e·tau)`. The status is [`RatesStatus::Settling`] for five time constants.
+    /// * **Bad samples** (a position that is not finite, or a `dt` that is not positive and finite):
+    ///   the last good motion is held. The status states the fault.
+    /// * **Gaps**: the difference spans the time since the last good sample, including missing and bad
+    ///   samples. After more than [`longest_gap`](Self::longest_gap) the rates restart at zero. After a
+    ///   `dt` that was negative or not finite the time is unknown. The next good sample then only sets
+    ///   the position, and the rates are held.
+    /// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
+    /// * **Long runs**: a position in `f32` has a spacing of up to `2⁻²³·|x|`, which appears as
+    ///   noise in the rates. At 1000 rad the spacing is 6e-5 rad, so with tau = 10 ms the noise is
+    ///   up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
+    ///   modulo its period. The differences are then those of small numbers, an integer counts the
+    ///   turns, and only the returned position is rounded.
+    ///
+    /// ```
+    /// use bowden::signal::{Rates, RatesState, RatesStatus};
+    /// # fn main() -> Result<(), bowden::Error> {
+    /// // An encoder of 4096 counts per turn on a 12-bit counter; the fit's cut-off was 5 Hz.
+    /// let rates = Rates::for_cutoff(5.0_f32)?.with_period(4096.0)?;
+    /// let mut state = RatesState::new();
+    /// for k in 0..2000_u32 {
+    ///     let counter = (4000 + 3 * k) % 4096; // 3 counts a millisecond
+    ///     rates.step(&mut state, counter as f32, 0.001);
+    /// }
+    /// let out = rates.step(&mut state, ((4000 + 3 * 2000) % 4096) as f32, 0.001);
+    /// assert_eq!((out.status, out.motion.position), (RatesStatus::Good, 10_000.0));
+    /// assert!((out.motion.velocity - 3000.0).abs() < 0.01); // [counts/s]
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub struct Rates<T> {
+        time_constant: T,
+        longest_gap: T,
+        period: Option<T>,
+    }
+    => {
+        let rates = Self::try_new(time_constant)?.with_longest_gap(longest_gap)?;
+        period.map_or(Ok(rates), |period| rates.with_period(period))
+    }
 }
 
 /// Why [`Rates`] could not use a sample.
@@ -131,22 +121,30 @@ pub struct RatesOutput<T> {
     pub status: RatesStatus,
 }
 
-/// State of [`Rates`]: the last good sample, the rates, and the elapsed time.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RatesState<T> {
-    /// The last good position as received, not unwrapped.
-    last: Option<T>,
-    /// Number of periods between this position and the position of `motion`.
-    turns: i32,
-    motion: Motion<T>,
-    /// Time of the bad samples since the last good one.
-    gap: T,
-    /// Whether an unknown time has passed since the last good sample.
-    time_unknown: bool,
-    /// Time since the rates started at zero; constant once they have settled.
-    age: T,
+crate::checked::stored! {
+    /// State of [`Rates`]: the last good sample, the rates, and the elapsed time.
+    #[derive(Default)]
+    pub struct RatesState<T> {
+        /// The last good position as received, not unwrapped.
+        last: Option<T>,
+        /// Number of periods between this position and the position of `motion`.
+        turns: i32,
+        motion: Motion<T>,
+        /// Time of the bad samples since the last good one.
+        gap: T,
+        /// Whether an unknown time has passed since the last good sample.
+        time_unknown: bool,
+        /// Time since the rates started at zero; constant once they have settled.
+        age: T,
+    }
+    => {
+        let negative = gap < T::ZERO || age < T::ZERO;
+        let state = Self { last, turns, motion, gap, time_unknown, age };
+        if negative {
+            return Err(Error::OutOfRange("time"));
+        }
+        finite(state)
+    }
 }
 
 crate::checked! {

@@ -38,9 +38,10 @@ pub use estimator::{Estimator, Leakage};
 pub use recursion::{Disturbance, ErrorState, LagRecursion};
 pub use settings::{AdaptiveSettings, Form, OnMissing};
 pub use smooth_sign::SmoothSign;
+pub(crate) use state::End;
 pub use state::{AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
 
-use crate::{Error, Real};
+use crate::Real;
 
 /// Robust adaptive torque control with `N` regressors, (17)-(26).
 ///
@@ -56,18 +57,6 @@ use crate::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "AdaptiveSettings<T, N>",
-        into = "AdaptiveSettings<T, N>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 pub struct Adaptive<T, const N: usize> {
     settings: AdaptiveSettings<T, N>,
     /// The longest step that is accepted \[s\].
@@ -139,15 +128,4 @@ impl<T: Real> Adaptive<T, 2> {
     }
 }
 
-impl<T, const N: usize> From<Adaptive<T, N>> for AdaptiveSettings<T, N> {
-    fn from(law: Adaptive<T, N>) -> Self {
-        law.settings
-    }
-}
-
-impl<T: Real, const N: usize> TryFrom<AdaptiveSettings<T, N>> for Adaptive<T, N> {
-    type Error = Error;
-    fn try_from(settings: AdaptiveSettings<T, N>) -> Result<Self, Error> {
-        Self::try_new(settings)
-    }
-}
+crate::checked::stored_as! { Adaptive<T, N> as AdaptiveSettings<T, N>: |law| law.settings, Adaptive::try_new }

@@ -99,36 +99,35 @@ pub struct AdaptiveTerms<T, const N: usize> {
     pub theta_hat: [T; N],
 }
 
-/// State of an [`Adaptive`] law: accumulated error, estimates, last good command.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T, N>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct AdaptiveState<T, const N: usize> {
-    pub(super) z: Compensated<T>,
-    pub(super) error_rate: DerivativeState<T>,
-    /// The law's share of the last command, from which the first-order form continues.
-    pub(super) lag: Compensated<T>,
-    pub(super) beta: Compensated<T>,
-    pub(super) delta: Compensated<T>,
-    #[cfg_attr(feature = "serde", serde(with = "super::list"))]
-    pub(super) theta: [Compensated<T>; N],
-    pub(super) held: Held<T>,
-    /// Time of the bad samples since the last good one \[s\]. The highest float means an
-    /// unknown time: the error's rate then stays unchanged for a sample.
-    pub(super) gap: T,
-    /// The limit of the drive at the last command; outdated if the latch is not set.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub(super) drive: Option<End>,
+crate::checked::stored! {
+    /// State of an [`Adaptive`] law: accumulated error, estimates, last good command.
+    pub struct AdaptiveState<T, const N: usize> {
+        pub(super) z: Compensated<T>,
+        pub(super) error_rate: DerivativeState<T>,
+        /// The law's share of the last command, from which the first-order form continues.
+        pub(super) lag: Compensated<T>,
+        pub(super) beta: Compensated<T>,
+        pub(super) delta: Compensated<T>,
+        #[serde(with = "super::list")]
+        pub(super) theta: [Compensated<T>; N],
+        pub(super) held: Held<T>,
+        /// Time of the bad samples since the last good one \[s\]. The highest float means an
+        /// unknown time: the error's rate then stays unchanged for a sample.
+        pub(super) gap: T,
+        /// The limit of the drive at the last command; outdated if the latch is not set.
+        pub(super) drive: Option<End>,
+    }
+    => {
+        let mut restored = held.remembering();
+        if held.latch == Latch::Told {
+            restored.tell();
+        }
+        let state = Self { z, error_rate, lag, beta, delta, theta, held: restored, gap, drive };
+        if gap < T::ZERO {
+            return Err(crate::Error::Inadmissible("a state must have no negative gap"));
+        }
+        finite(state)
+    }
 }
 
 /// A limit of the drive.
@@ -280,58 +279,5 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Counts the time of a bad sample.
     pub(super) fn wait(&mut self, dt: T, longest: T) {
         self.gap = gap_after(self.gap, dt, longest);
-    }
-}
-
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields, bound = "T: Real + serde::Deserialize<'de>")]
-struct Unchecked<T, const N: usize> {
-    z: Compensated<T>,
-    error_rate: DerivativeState<T>,
-    lag: Compensated<T>,
-    beta: Compensated<T>,
-    delta: Compensated<T>,
-    #[serde(with = "super::list")]
-    theta: [Compensated<T>; N],
-    held: Held<T>,
-    gap: T,
-    #[serde(default)]
-    drive: Option<End>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize> TryFrom<Unchecked<T, N>> for AdaptiveState<T, N> {
-    type Error = crate::Error;
-
-    /// Refuses numbers that are not finite; [`Adaptive::is_valid`] checks more, for one law.
-    fn try_from(raw: Unchecked<T, N>) -> Result<Self, crate::Error> {
-        let sums = [raw.z, raw.lag, raw.beta, raw.delta];
-        let finite = sums.iter().chain(&raw.theta).all(Compensated::is_finite)
-            && raw.error_rate.is_finite()
-            && raw.held.command.is_finite()
-            && raw.gap.is_finite()
-            && raw.gap >= T::ZERO;
-        if !finite {
-            return Err(crate::Error::Inadmissible(
-                "a state must have finite numbers and no negative gap",
-            ));
-        }
-        let (told, mut held) = (raw.held.latch == Latch::Told, raw.held.remembering());
-        if told {
-            held.tell();
-        }
-        Ok(Self {
-            z: raw.z,
-            error_rate: raw.error_rate,
-            lag: raw.lag,
-            beta: raw.beta,
-            delta: raw.delta,
-            theta: raw.theta,
-            held,
-            gap: raw.gap,
-            drive: raw.drive,
-        })
     }
 }

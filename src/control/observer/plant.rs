@@ -4,30 +4,32 @@ use crate::error::{above_zero, finite, must_be_finite, not_below_zero};
 use crate::signal::Motion;
 use crate::{Error, Real};
 
-/// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
-///
-/// For a motor with inertia J and damping c that works through the cable against a stiffness K:
-/// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, and alpha is the torque of one command unit. If wn and
-/// alpha are uncertain, choose low values.
-///
-/// ```
-/// use bowden::control::NominalPlant;
-/// use bowden::signal::Motion;
-/// // 0.6 N·m per unit, 0.2 kg·m², 2.7 N·m·s/rad, 130 N·m/rad.
-/// let plant = NominalPlant::of_mechanics(0.6_f64, 0.2, 2.7, 130.0)?;
-/// assert!((plant.natural_frequency() - 25.5).abs() < 0.01); // [rad/s]
-/// assert!((plant.damping_ratio() - 0.265).abs() < 0.001);
-/// let rest = Motion { position: 12.0, ..Motion::default() }; // [N·m], at rest
-/// assert!((plant.feed_forward(&rest) - 20.0).abs() < 1e-12); // [units]
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct NominalPlant<T> {
-    gain: T,
-    natural_frequency: T,
-    damping_ratio: T,
+crate::checked::stored! {
+    /// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
+    ///
+    /// For a motor with inertia J and damping c that works through the cable against a stiffness K:
+    /// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, and alpha is the torque of one command unit. If wn and
+    /// alpha are uncertain, choose low values.
+    ///
+    /// ```
+    /// use bowden::control::NominalPlant;
+    /// use bowden::signal::Motion;
+    /// // 0.6 N·m per unit, 0.2 kg·m², 2.7 N·m·s/rad, 130 N·m/rad.
+    /// let plant = NominalPlant::of_mechanics(0.6_f64, 0.2, 2.7, 130.0)?;
+    /// assert!((plant.natural_frequency() - 25.5).abs() < 0.01); // [rad/s]
+    /// assert!((plant.damping_ratio() - 0.265).abs() < 0.001);
+    /// let rest = Motion { position: 12.0, ..Motion::default() }; // [N·m], at rest
+    /// assert!((plant.feed_forward(&rest) - 20.0).abs() < 1e-12); // [units]
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct NominalPlant<T> {
+        gain: T,
+        natural_frequency: T,
+        damping_ratio: T,
+    }
+    => {
+        Self::try_new(gain, natural_frequency, damping_ratio)
+    }
 }
 
 crate::checked! {
@@ -115,15 +117,5 @@ impl<T: Real> NominalPlant<T> {
     fn terms(&self) -> (T, T) {
         let slow = self.natural_frequency.recip();
         (T::from_f64(2.0) * self.damping_ratio * slow, slow * slow)
-    }
-}
-
-crate::checked::deserialize_checked! {
-    NominalPlant<T> {
-        gain: T,
-        natural_frequency: T,
-        damping_ratio: T,
-    } => {
-        Self::try_new(gain, natural_frequency, damping_ratio)
     }
 }

@@ -5,42 +5,37 @@ use crate::signal::Compensated;
 use crate::Error;
 use crate::Real;
 
-/// State of a [`DisturbanceObserver`](super::DisturbanceObserver): five lags and the last estimate.
-///
-/// ```
-/// use bowden::control::ObserverState;
-/// assert_eq!(ObserverState::<f32>::new().estimate(), 0.0);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct ObserverState<T> {
-    /// None before the first good sample.
-    pub(super) lags: Option<Lags<T>>,
-    pub(super) estimate: T,
-    /// Time of the bad samples since the last good one \[s\]. The highest float means an
-    /// unknown time, which counts as one more dt.
-    pub(super) gap: T,
+crate::checked::stored! {
+    /// State of a [`DisturbanceObserver`](super::DisturbanceObserver): five lags and the last estimate.
+    ///
+    /// ```
+    /// use bowden::control::ObserverState;
+    /// assert_eq!(ObserverState::<f32>::new().estimate(), 0.0);
+    /// ```
+    #[derive(Default)]
+    pub struct ObserverState<T> {
+        /// None before the first good sample.
+        pub(super) lags: Option<Lags<T>>,
+        pub(super) estimate: T,
+        /// Time of the bad samples since the last good one \[s\]. The highest float means an
+        /// unknown time, which counts as one more dt.
+        pub(super) gap: T,
+    }
+    => {
+        let state = Self { lags, estimate, gap };
+        if gap < T::ZERO {
+            return Err(Error::Inadmissible("a state must have no negative gap"));
+        }
+        finite(state)
+    }
 }
 
-/// The command behind latency and Q, and the output behind Q; each with its rounding error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Lags<T> {
-    pub(super) sent: [Compensated<T>; 3],
-    pub(super) measured: [Compensated<T>; 2],
+crate::checked::stored! {
+    /// The command behind latency and Q, and the output behind Q; each with its rounding error.
+    pub(super) struct Lags<T> {
+        pub(super) sent: [Compensated<T>; 3],
+        pub(super) measured: [Compensated<T>; 2],
+    }
 }
 
 impl<T: Real> Lags<T> {
@@ -84,42 +79,5 @@ impl<T: Real> ObserverState<T> {
     #[must_use]
     pub const fn estimate(&self) -> T {
         self.estimate
-    }
-}
-
-/// The stored form, or a proof's state, before its checks.
-#[cfg(any(feature = "serde", kani))]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub(super) struct Unchecked<T> {
-    pub(super) lags: Option<Lags<T>>,
-    pub(super) estimate: T,
-    pub(super) gap: T,
-}
-
-#[cfg(any(feature = "serde", kani))]
-impl<T: Real> ObserverState<T> {
-    /// A state of these fields, with any values.
-    pub(super) fn assumed(raw: Unchecked<T>) -> Self {
-        Self {
-            lags: raw.lags,
-            estimate: raw.estimate,
-            gap: raw.gap,
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for ObserverState<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let finite = raw.lags.is_none_or(|lags| lags.sum().is_finite())
-            && (raw.estimate + raw.gap).is_finite();
-        if finite && raw.gap >= T::ZERO {
-            return Ok(Self::assumed(raw));
-        }
-        Err(Error::Inadmissible(
-            "a state must have finite numbers and no negative gap",
-        ))
     }
 }

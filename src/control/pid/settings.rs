@@ -308,17 +308,3 @@ crate::checked! {
         Ok(Pid { plain, settings })
     }
 }
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<PidSettings<T>> for Pid<T> {
-    type Error = Error;
-    fn try_from(settings: PidSettings<T>) -> Result<Self, Error> {
-        Self::try_new(settings)
-    }
-}
-
-impl<T: Real> From<Pid<T>> for PidSettings<T> {
-    fn from(pid: Pid<T>) -> Self {
-        *pid.settings()
-    }
-}

@@ -1,65 +1,64 @@
 //! State of a [`Pid`] between samples.
 
 use super::{Pid, PidInput};
+#[cfg(any(feature = "serde", kani))]
+use crate::checked::Finite;
 use crate::control::status::Held;
 use crate::control::Status;
 use crate::error::is_usable;
 use crate::signal::{gap_after, Compensated};
 use crate::Real;
 
-/// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
-///
-/// The state is `Copy`, so it can be saved and restored. Any state works with any [`Pid`]. To
-/// change the gains of a running controller without a jump, see [`Pid::bumpless_transfer`].
-///
-/// ```
-/// use bowden::control::{Pid, PidInput, PidState};
-/// let pid = Pid::paper_pi();
-/// let mut state = PidState::new();
-/// pid.step(&mut state, &PidInput::new(0.001, 1.0, 0.5_f64));
-/// assert!(state.integral() > 0.0);
-/// state.reset();
-/// assert_eq!(state.integral(), 0.0);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct PidState<T> {
-    /// The integral term \[command unit\].
-    pub(super) integral: Compensated<T>,
-    /// Filtered rate of y − c·y_r, zero if it is not used.
-    pub(super) rate: T,
-    pub(crate) last: Option<Last<T>>,
-    pub(crate) held: Held<T>,
-    /// Time of the bad samples since the last good one \[s\]. The highest float means an
-    /// unknown time: the rate then stays unchanged for a sample.
-    pub(super) gap: T,
+crate::checked::stored! {
+    /// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
+    ///
+    /// The state is `Copy`, so it can be saved and restored. Any state works with any [`Pid`]. To
+    /// change the gains of a running controller without a jump, see [`Pid::bumpless_transfer`].
+    ///
+    /// ```
+    /// use bowden::control::{Pid, PidInput, PidState};
+    /// let pid = Pid::paper_pi();
+    /// let mut state = PidState::new();
+    /// pid.step(&mut state, &PidInput::new(0.001, 1.0, 0.5_f64));
+    /// assert!(state.integral() > 0.0);
+    /// state.reset();
+    /// assert_eq!(state.integral(), 0.0);
+    /// ```
+    #[derive(Default)]
+    pub struct PidState<T> {
+        /// The integral term \[command unit\].
+        pub(crate) integral: Compensated<T>,
+        /// Filtered rate of y − c·y_r, zero if it is not used.
+        pub(crate) rate: T,
+        pub(crate) last: Option<Last<T>>,
+        pub(crate) held: Held<T>,
+        /// Time of the bad samples since the last good one \[s\]. The highest float means an
+        /// unknown time: the rate then stays unchanged for a sample.
+        pub(crate) gap: T,
+    }
+    => {
+        let state = Self { integral, rate, last, held: held.remembering(), gap };
+        if !state.is_valid() {
+            return Err(crate::Error::Inadmissible(
+                "a state must have finite numbers and no negative gap",
+            ));
+        }
+        Ok(state)
+    }
 }
 
-/// The last good sample and its terms.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct Last<T> {
-    pub(crate) reference: T,
-    pub(crate) measured: T,
-    /// Zero for NaN, which affects PIV only.
-    pub(crate) velocity: T,
-    pub(crate) feed_forward: T,
-    pub(crate) unlimited: T,
-    /// Change of the integral at this sample, before the limits cut it.
-    pub(crate) change: T,
+crate::checked::stored! {
+    /// The last good sample and its terms.
+    pub(crate) struct Last<T> {
+        pub(crate) reference: T,
+        pub(crate) measured: T,
+        /// Zero for NaN, which affects PIV only.
+        pub(crate) velocity: T,
+        pub(crate) feed_forward: T,
+        pub(crate) unlimited: T,
+        /// Change of the integral at this sample, before the limits cut it.
+        pub(crate) change: T,
+    }
 }
 
 impl<T: Real> Last<T> {
@@ -237,12 +236,9 @@ impl<T: Real> PidState<T> {
     /// Whether steps can lead to this state: every number is finite.
     #[cfg(any(feature = "serde", kani))]
     pub(crate) fn is_valid(&self) -> bool {
-        self.integral.is_finite()
-            && self.rate.is_finite()
-            && self.gap.is_finite()
-            && self.gap >= T::zero()
-            && self.held.command.is_finite()
-            && self.last.is_none_or(|last| last.is_valid())
+        self.all_finite()
+            && self.gap >= T::ZERO
+            && (self.last).is_none_or(|last| (last.measured - last.reference).is_finite())
     }
 
     /// Records a good sample; returns its command.
@@ -265,59 +261,5 @@ impl<T: Real> PidState<T> {
     /// Counts the time of a bad sample.
     pub(super) fn wait(&mut self, dt: T, longest: T) {
         self.gap = gap_after(self.gap, dt, longest);
-    }
-}
-
-#[cfg(any(feature = "serde", kani))]
-impl<T: Real> Last<T> {
-    fn is_valid(&self) -> bool {
-        let samples = [self.reference, self.measured, self.velocity];
-        let commands = [self.feed_forward, self.unlimited, self.change];
-        samples.iter().chain(&commands).all(|x| x.is_finite())
-            && (self.measured - self.reference).is_finite()
-    }
-}
-
-/// The stored form, or a proof's state, before its checks.
-#[cfg(any(feature = "serde", kani))]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub(crate) struct Unchecked<T> {
-    pub(crate) integral: Compensated<T>,
-    pub(crate) rate: T,
-    pub(crate) last: Option<Last<T>>,
-    pub(crate) held: Held<T>,
-    pub(crate) gap: T,
-}
-
-#[cfg(any(feature = "serde", kani))]
-impl<T: Real> PidState<T> {
-    /// A state of these fields, with any values.
-    pub(crate) fn assumed(raw: Unchecked<T>) -> Self {
-        Self {
-            integral: raw.integral,
-            rate: raw.rate,
-            last: raw.last,
-            held: raw.held,
-            gap: raw.gap,
-        }
-    }
-}
-
-#[cfg(any(feature = "serde", kani))]
-impl<T: Real> TryFrom<Unchecked<T>> for PidState<T> {
-    type Error = crate::Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, crate::Error> {
-        let state = Self::assumed(Unchecked {
-            held: raw.held.remembering(),
-            ..raw
-        });
-        if state.is_valid() {
-            Ok(state)
-        } else {
-            Err(crate::Error::Inadmissible(
-                "a state must have finite numbers and no negative gap",
-            ))
-        }
     }
 }

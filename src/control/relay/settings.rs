@@ -133,17 +133,3 @@ crate::checked! {
         }
     }
 }
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<RelaySettings<T>> for Relay<T> {
-    type Error = Error;
-    fn try_from(settings: RelaySettings<T>) -> Result<Self, Error> {
-        Self::try_new(settings)
-    }
-}
-
-impl<T: Real> From<Relay<T>> for RelaySettings<T> {
-    fn from(relay: Relay<T>) -> Self {
-        *relay.settings()
-    }
-}

@@ -3,59 +3,47 @@
 use super::RelayPhase;
 use crate::control::status::Held;
 use crate::signal::{clamp, Compensated};
-#[cfg(feature = "serde")]
-use crate::Error;
 use crate::Real;
 
-/// State of a [`Relay`](super::Relay): the present cycle, the average, the remaining time.
-///
-/// The state is `Copy`. After a power-off, start with [`RelayState::new`], because the limit cycle
-/// has stopped.
-///
-/// ```
-/// use bowden::control::{RelayPhase, RelayState};
-/// let state = RelayState::<f32>::new();
-/// assert_eq!((state.phase(), state.cycles()), (RelayPhase::Running, 0));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "Unchecked<T>",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct RelayState<T> {
-    pub(super) held: Held<T>,
-    pub(super) phase: RelayPhase<T>,
-    /// Ticks until the end of `longest_time`.
-    pub(super) remaining: u32,
-    /// Whether the command is `centre + d`; none before the first good sample.
-    pub(super) upper: Option<bool>,
-    /// None before the first switch to `centre + d`, and after an unusable `dt`.
-    pub(super) cycle: Option<Cycle<T>>,
-    pub(super) mean: Mean<T>,
-    pub(super) cycles: u32,
+crate::checked::stored! {
+    /// State of a [`Relay`](super::Relay): the present cycle, the average, the remaining time.
+    ///
+    /// The state is `Copy`. After a power-off, start with [`RelayState::new`], because the limit cycle
+    /// has stopped.
+    ///
+    /// ```
+    /// use bowden::control::{RelayPhase, RelayState};
+    /// let state = RelayState::<f32>::new();
+    /// assert_eq!((state.phase(), state.cycles()), (RelayPhase::Running, 0));
+    /// ```
+    pub struct RelayState<T> {
+        pub(super) held: Held<T>,
+        pub(super) phase: RelayPhase<T>,
+        /// Ticks until the end of `longest_time`.
+        pub(super) remaining: u32,
+        /// Whether the command is `centre + d`; none before the first good sample.
+        pub(super) upper: Option<bool>,
+        /// None before the first switch to `centre + d`, and after an unusable `dt`.
+        pub(super) cycle: Option<Cycle<T>>,
+        pub(super) mean: Mean<T>,
+        pub(super) cycles: u32,
+    }
+    => {
+        finite(Self { held: held.remembering(), phase, remaining, upper, cycle, mean, cycles })
+    }
 }
 
-/// A cycle since its switch to `centre + d`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Cycle<T> {
-    pub(super) time: Compensated<T>,
-    /// Time of the switch to `centre − d`.
-    pub(super) upper_time: T,
-    /// Lowest and highest deviation from the reference.
-    pub(super) lowest: T,
-    pub(super) highest: T,
-    pub(super) samples: u32,
+crate::checked::stored! {
+    /// A cycle since its switch to `centre + d`.
+    pub(super) struct Cycle<T> {
+        pub(super) time: Compensated<T>,
+        /// Time of the switch to `centre − d`.
+        pub(super) upper_time: T,
+        /// Lowest and highest deviation from the reference.
+        pub(super) lowest: T,
+        pub(super) highest: T,
+        pub(super) samples: u32,
+    }
 }
 
 impl<T: Real> Cycle<T> {
@@ -77,16 +65,15 @@ impl<T: Real> Cycle<T> {
     }
 }
 
-/// Mean over cycles that agree.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Mean<T> {
-    pub(super) count: u32,
-    pub(super) period: T,
-    pub(super) amplitude: T,
-    pub(super) duty: T,
+crate::checked::stored! {
+    /// Mean over cycles that agree.
+    #[derive(Default)]
+    pub(super) struct Mean<T> {
+        pub(super) count: u32,
+        pub(super) period: T,
+        pub(super) amplitude: T,
+        pub(super) duty: T,
+    }
 }
 
 impl<T: Real> Mean<T> {
@@ -201,48 +188,5 @@ impl<T: Real> RelayState<T> {
 impl<T: Real> Default for RelayState<T> {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-/// The stored form, before its checks.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unchecked<T> {
-    held: Held<T>,
-    phase: RelayPhase<T>,
-    remaining: u32,
-    upper: Option<bool>,
-    cycle: Option<Cycle<T>>,
-    mean: Mean<T>,
-    cycles: u32,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Unchecked<T>> for RelayState<T> {
-    type Error = Error;
-    fn try_from(raw: Unchecked<T>) -> Result<Self, Error> {
-        let finite = |numbers: &[T]| numbers.iter().all(|x| x.is_finite());
-        let cycle = raw.cycle.is_none_or(|cycle| {
-            finite(&[cycle.time.value, cycle.time.carry, cycle.upper_time])
-                && finite(&[cycle.lowest, cycle.highest])
-        });
-        let result = match raw.phase {
-            RelayPhase::Done(it) => finite(&[it.gain, it.period, it.amplitude, it.duty]),
-            _ => true,
-        };
-        let mean = finite(&[raw.mean.period, raw.mean.amplitude, raw.mean.duty]);
-        if !(cycle && result && mean && raw.held.command.is_finite()) {
-            return Err(Error::Inadmissible("a state must have finite numbers"));
-        }
-        Ok(Self {
-            held: raw.held.remembering(),
-            phase: raw.phase,
-            remaining: raw.remaining,
-            upper: raw.upper,
-            cycle: raw.cycle,
-            mean: raw.mean,
-            cycles: raw.cycles,
-        })
     }
 }

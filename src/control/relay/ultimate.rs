@@ -2,29 +2,27 @@
 
 use crate::Real;
 
-/// Result of a [`Relay`](super::Relay): ultimate gain and period, and the averaged cycle.
-///
-/// ```
-/// use bowden::control::{PiRule, Ultimate};
-/// // 1/(s + 1)³: k_u = 8, T_u = 2·pi/sqrt(3).
-/// let ultimate = Ultimate { gain: 8.0_f64, period: 3.628, amplitude: 0.16, duty: 0.5 };
-/// let (cautious, fast) = (ultimate.pi(PiRule::TyreusLuyben), ultimate.pi(PiRule::ZieglerNichols));
-/// assert!((cautious.k_p - 2.5).abs() < 1e-12 && (fast.k_p - 3.6).abs() < 1e-12);
-/// assert!((cautious.k_p / cautious.k_i - 7.9816).abs() < 1e-9); // T_i = 2.2·T_u
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Ultimate<T> {
-    /// k_u \[command unit/output unit\], with the sign of the relay's amplitude.
-    pub gain: T,
-    /// T_u \[s\]
-    pub period: T,
-    /// a: half the distance from the lowest to the highest output \[output unit\].
-    pub amplitude: T,
-    /// D: share of the period in which the command is `centre + d`; 1/2 in a symmetric cycle.
-    pub duty: T,
+crate::checked::stored! {
+    /// Result of a [`Relay`](super::Relay): ultimate gain and period, and the averaged cycle.
+    ///
+    /// ```
+    /// use bowden::control::{PiRule, Ultimate};
+    /// // 1/(s + 1)³: k_u = 8, T_u = 2·pi/sqrt(3).
+    /// let ultimate = Ultimate { gain: 8.0_f64, period: 3.628, amplitude: 0.16, duty: 0.5 };
+    /// let (cautious, fast) = (ultimate.pi(PiRule::TyreusLuyben), ultimate.pi(PiRule::ZieglerNichols));
+    /// assert!((cautious.k_p - 2.5).abs() < 1e-12 && (fast.k_p - 3.6).abs() < 1e-12);
+    /// assert!((cautious.k_p / cautious.k_i - 7.9816).abs() < 1e-9); // T_i = 2.2·T_u
+    /// ```
+    pub struct Ultimate<T> {
+        /// k_u \[command unit/output unit\], with the sign of the relay's amplitude.
+        pub gain: T,
+        /// T_u \[s\]
+        pub period: T,
+        /// a: half the distance from the lowest to the highest output \[output unit\].
+        pub amplitude: T,
+        /// D: share of the period in which the command is `centre + d`; 1/2 in a symmetric cycle.
+        pub duty: T,
+    }
 }
 
 /// Tuning rule: PI gains from ultimate gain and period.
