@@ -179,7 +179,7 @@ impl<X: Finite, const N: usize> Finite for [X; N] {
     }
 }
 
-impl<T: crate::Real> Finite for crate::signal::Motion<T> {
+impl<T: crate::Real> Finite for crate::effect::Motion<T> {
     fn all_finite(&self) -> bool {
         [self.position, self.velocity, self.acceleration].all_finite()
     }

@@ -224,13 +224,11 @@ impl<T: Real, const N: usize> Model<T, N> {
     }
 
     /// The transmission, if there is one.
-    #[must_use]
     pub fn transmission(&self) -> Option<&Transmission<T>> {
         self.transmission.as_ref()
     }
 
     /// The effects with their gains, in their order.
-    #[must_use]
     pub fn terms(&self) -> &[Term<T>] {
         self.terms.get(..self.len).unwrap_or(&self.terms)
     }

@@ -121,36 +121,26 @@ crate::checked! {
 
 impl<T: Real> Transmission<T> {
     /// Input and output quantities.
-    #[inline]
-    #[must_use]
     pub fn mode(&self) -> Mode {
         self.mode
     }
 
     /// `B` in torque mode, `kappa_x` in displacement mode [output unit/input unit].
-    #[inline]
-    #[must_use]
     pub fn gain(&self) -> T {
         self.gain
     }
 
     /// Gain of the hysteresis [output unit], with the sign of its mode's equation.
-    #[inline]
-    #[must_use]
     pub fn kappa_eta(&self) -> T {
         self.kappa_eta
     }
 
     /// `T0` (subtracted) in torque mode, otherwise the offset (added) [output unit].
-    #[inline]
-    #[must_use]
     pub fn offset(&self) -> T {
         self.offset
     }
 
     /// Shape parameters of the hysteresis.
-    #[inline]
-    #[must_use]
     pub fn shape(&self) -> &BoucWen<T> {
         &self.shape
     }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation)]
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use bowden::signal::{Motion, Rates, RatesFault, RatesState, RatesStatus};
+use bowden::effect::Motion;
+use bowden::signal::{Rates, RatesFault, RatesState, RatesStatus};
 use bowden::{Error, Real};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -5,7 +5,7 @@ use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core::slice;
 use core_bowden::model::{Model, ModelState, Sample, Source};
-use core_bowden::signal::Motion;
+use core_bowden::effect::Motion;
 
 /// Maximum number of terms of a model.
 pub const BOWDEN_TERMS: usize = 16;

@@ -2,7 +2,7 @@
 
 use crate::result::{bowden_fault, bowden_result, of_status, Refused};
 use core_bowden::control::{Applied, Fallback, Limits, Output};
-use core_bowden::signal::Motion;
+use core_bowden::effect::Motion;
 
 /// For `after` of a fallback: holds the last good command indefinitely. This is for a simulation,
 /// not for a machine.

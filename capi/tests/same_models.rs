@@ -13,7 +13,7 @@ use core_bowden::control::{
     SmoothSign, Status,
 };
 use core_bowden::model::{Model, ModelState, Sample, Source};
-use core_bowden::signal::Motion;
+use core_bowden::effect::Motion;
 use objects::blank;
 use signal::Signal;
 use std::ptr::{null, null_mut};

@@ -11,7 +11,8 @@ use core_bowden::control::{
     ObserverInput, ObserverState, Pid, PidInput, PidSettings, PidState, Status,
 };
 use core_bowden::hysteresis::{BoucWen, BoucWenState};
-use core_bowden::signal::{Motion, Play, PlayState, Rates, RatesState};
+use core_bowden::effect::Motion;
+use core_bowden::signal::{Play, PlayState, Rates, RatesState};
 use core_bowden::transmission::Transmission;
 use objects::blank;
 use signal::Signal;

@@ -102,7 +102,7 @@ fn a_play_before_the_inverse_is_the_crates_and_nonsense_is_refused() {
         let nobody = bowden_compensator_set_play_f32(null_mut(), 0.3, null_mut());
         assert_eq!(nobody, bowden_result::ErrorNull);
     }
-    let rest = core_bowden::signal::Motion::default();
+    let rest = core_bowden::effect::Motion::default();
     let still = blank::<bowden_motion_f32>();
     for k in 0..400 {
         let desired = 6.0 * (0.02 * k as f32).sin() + if k % 2 == 0 { 0.2 } else { -0.2 };

@@ -8,7 +8,7 @@ use bowden::control::{
     DisturbanceObserver, IterativeLearning, IterativeLearningInput, IterativeLearningState,
     LoopSample, NominalPlant, ObserverInput, ObserverState,
 };
-use bowden::signal::Motion;
+use bowden::effect::Motion;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};

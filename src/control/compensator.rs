@@ -48,7 +48,6 @@ pub struct CompensatorInput<'a, T> {
 
 impl<T: Real> CompensatorInput<'_, T> {
     /// A sample for a model whose effects read no motion: `dt` \[s\], `desired`.
-    #[must_use]
     pub fn new(dt: T, desired: T) -> Self {
         Self {
             dt,
@@ -287,7 +286,6 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     }
 
     /// The inverted transmission.
-    #[must_use]
     pub fn transmission(&self) -> &Transmission<T> {
         &self.transmission
     }
@@ -408,7 +406,6 @@ crate::checked::stored! {
 
 impl<T: Real, const N: usize> CompensatorState<T, N> {
     /// A new state, with the hysteresis at zero.
-    #[must_use]
     pub fn new() -> Self {
         Self::from_hysteresis(BoucWenState::new())
     }
@@ -433,19 +430,16 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
 
     /// The last good command \[input unit\], or the input that
     /// [`applied`](Compensator::applied) has reported since; zero before the first one.
-    #[must_use]
     pub fn command(&self) -> T {
         self.hysteresis.input().unwrap_or_else(T::zero)
     }
 
     /// The hysteresis state, within ±1.
-    #[must_use]
     pub fn eta(&self) -> T {
         self.hysteresis.eta()
     }
 
     /// Number of bad samples in a row; saturates at `u32::MAX`.
-    #[must_use]
     pub fn consecutive_bad(&self) -> u32 {
         self.bad
     }

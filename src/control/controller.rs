@@ -40,7 +40,6 @@ pub struct LoopSample<'a, T> {
 impl<T: Real> LoopSample<'_, T> {
     /// A sample with a constant reference, from `dt` \[s\] and the torques \[N·m\]; all other
     /// fields are zero or empty.
-    #[must_use]
     pub const fn new(dt: T, reference: T, measured: T) -> Self {
         Self {
             dt,

@@ -107,7 +107,6 @@ pub struct IterativeLearningInput<T> {
 
 impl<T: Real> IterativeLearningInput<T> {
     /// A sample from which the law learns.
-    #[must_use]
     pub const fn new(phase: T, reference: T, measured: T) -> Self {
         Self {
             phase,
@@ -171,42 +170,31 @@ impl<T: Real> IterativeLearning<T> {
     pub const MOST_CELLS: usize = u16::MAX as usize;
 
     /// Gain \[command unit/output unit\].
-    #[inline]
-    #[must_use]
     pub const fn gain(&self) -> T {
         self.gain
     }
 
     /// Largest magnitude of the learned values \[command unit\].
-    #[inline]
-    #[must_use]
     pub const fn limit(&self) -> T {
         self.limit
     }
 
     /// Number of cells from a command to its effect.
-    #[inline]
-    #[must_use]
     pub const fn lead(&self) -> u16 {
         self.lead
     }
 
     /// Half-width of the triangle \[cells\]; 0 means no filter.
-    #[inline]
-    #[must_use]
     pub const fn half_width(&self) -> u16 {
         self.half_width
     }
 
     /// Share of a learned value that is forgotten per cycle.
-    #[inline]
-    #[must_use]
     pub const fn forgetting(&self) -> T {
         self.forgetting
     }
 
     /// Minimum number of cells in a cycle: `lead + 2·half_width + 9`.
-    #[must_use]
     pub const fn fewest_cells(&self) -> usize {
         self.lead as usize + 2 * self.half_width as usize + 2 * MOST_PASSED + 1
     }

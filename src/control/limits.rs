@@ -63,7 +63,6 @@ crate::checked! {
 
 impl<T: Real> Limits<T> {
     /// Every finite command: for a simulation, not for a machine.
-    #[must_use]
     pub const fn unlimited() -> Self {
         Self {
             low: T::LOWEST,
@@ -73,19 +72,16 @@ impl<T: Real> Limits<T> {
     }
 
     /// Lower limit of the command \[command unit\].
-    #[must_use]
     pub const fn low(&self) -> T {
         self.low
     }
 
     /// Upper limit of the command \[command unit\].
-    #[must_use]
     pub const fn high(&self) -> T {
         self.high
     }
 
     /// Slew-rate limit \[command unit/s\], if there is one.
-    #[must_use]
     pub const fn slew(&self) -> Option<T> {
         self.slew
     }

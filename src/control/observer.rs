@@ -158,36 +158,26 @@ crate::checked! {
 
 impl<T: Real> DisturbanceObserver<T> {
     /// The nominal plant.
-    #[inline]
-    #[must_use]
     pub const fn plant(&self) -> &NominalPlant<T> {
         &self.plant
     }
 
     /// tau of Q \[s\].
-    #[inline]
-    #[must_use]
     pub const fn time_constant(&self) -> T {
         self.time_constant
     }
 
     /// Largest magnitude of the estimate \[command unit\].
-    #[inline]
-    #[must_use]
     pub const fn limit(&self) -> T {
         self.limit
     }
 
     /// Longest `dt` of a good sample \[s\].
-    #[inline]
-    #[must_use]
     pub const fn longest_dt(&self) -> T {
         self.longest_dt
     }
 
     /// Time from a command to its effect in the measured output \[s\].
-    #[inline]
-    #[must_use]
     pub const fn latency(&self) -> T {
         self.latency
     }

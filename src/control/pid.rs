@@ -76,7 +76,6 @@ impl<T: Real> Pid<T> {
     }
 
     /// The PI (15) of Nguyen et al. (2018), Table 1: `k_p` = 30, `k_i` = 18. It has no limits.
-    #[must_use]
     pub fn paper_pi() -> Self {
         Self::assumed(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
     }
@@ -86,7 +85,6 @@ impl<T: Real> Pid<T> {
     ///
     /// The paper does not specify the derivative filter. On the reference rig the loop diverges
     /// with a filter time constant below 20 ms.
-    #[must_use]
     pub fn paper_pid() -> Self {
         Self::assumed(PidSettings {
             k_d: T::from_f64(2.0),
@@ -98,7 +96,6 @@ impl<T: Real> Pid<T> {
 
     /// The PIV (16) of Nguyen et al. (2018), Table 1: `k_d` = 10 on the distal velocity. It has no
     /// limits.
-    #[must_use]
     pub fn paper_piv() -> Self {
         Self::assumed(PidSettings {
             k_d: T::from_f64(10.0),
@@ -111,7 +108,6 @@ impl<T: Real> Pid<T> {
     ///
     /// The value 320 is the effective integral gain of the paper's adaptive law. A comparison
     /// without this PI would attribute the effect of a higher gain to adaptation.
-    #[must_use]
     pub fn matched_pi() -> Self {
         Self::assumed(PidSettings::unlimited(
             T::from_f64(30.0),
@@ -120,8 +116,6 @@ impl<T: Real> Pid<T> {
     }
 
     /// The settings of this controller.
-    #[inline]
-    #[must_use]
     pub fn settings(&self) -> &PidSettings<T> {
         &self.settings
     }

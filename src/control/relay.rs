@@ -166,7 +166,6 @@ pub enum RelayPhase<T> {
 
 impl<T: Real> RelayPhase<T> {
     /// Whether the experiment is still running.
-    #[must_use]
     pub const fn is_running(&self) -> bool {
         matches!(self, Self::Running | Self::Held(_))
     }
@@ -184,8 +183,6 @@ pub struct RelayOutput<T> {
 
 impl<T: Real> Relay<T> {
     /// The settings of this relay.
-    #[inline]
-    #[must_use]
     pub const fn settings(&self) -> &RelaySettings<T> {
         &self.settings
     }

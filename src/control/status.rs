@@ -162,7 +162,6 @@ crate::checked! {
 
 impl<T: Real> Fallback<T> {
     /// Holds the last good command indefinitely: for a simulation, not for a machine.
-    #[must_use]
     pub const fn hold_indefinitely() -> Self {
         Self {
             after: u32::MAX,
@@ -173,25 +172,21 @@ impl<T: Real> Fallback<T> {
     }
 
     /// Number of bad samples in a row after which the safe command is applied.
-    #[must_use]
     pub const fn after(&self) -> u32 {
         self.after
     }
 
     /// Number of good samples that cancel a bad one.
-    #[must_use]
     pub const fn weight(&self) -> u32 {
         self.weight
     }
 
     /// The score at which the safe command is applied: `after·weight`.
-    #[must_use]
     pub const fn most(&self) -> u32 {
         self.most
     }
 
     /// The safe command \[command unit\], if there is one.
-    #[must_use]
     pub const fn command(&self) -> Option<T> {
         self.command
     }

@@ -12,7 +12,7 @@ use crate::{Error, Real};
 /// ```
 /// use bowden::effect::{Dimension, Effect, Viscous};
 /// // The regressor of viscous friction is a velocity: channel unit per second.
-/// assert_eq!(Effect::<f64>::from(Viscous).info().dimension, Dimension { channel: 1, time: -1, ..Dimension::ONE });
+/// assert_eq!(Effect::<f64>::from(Viscous).info().dimension, Dimension { channel: 1, time: -1, ..Dimension::default() });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -33,39 +33,27 @@ pub struct Dimension {
 
 impl Dimension {
     /// A pure number.
-    pub const ONE: Self = Self {
-        channel: 0,
-        load: 0,
-        time: 0,
-        output: 0,
-        input: 0,
-    };
+    pub(super) const ONE: Self = Self::of(0, 0, 0, 0);
     /// The channel's unit.
-    pub const POSITION: Self = Self {
-        channel: 1,
-        ..Self::ONE
-    };
+    pub(super) const POSITION: Self = Self::of(1, 0, 0, 0);
     /// The channel's unit per second.
-    pub const VELOCITY: Self = Self {
-        channel: 1,
-        time: -1,
-        ..Self::ONE
-    };
+    pub(super) const VELOCITY: Self = Self::of(1, 0, -1, 0);
     /// The load's unit.
-    pub const LOAD: Self = Self {
-        load: 1,
-        ..Self::ONE
-    };
+    pub(super) const LOAD: Self = Self::of(0, 1, 0, 0);
     /// Seconds.
-    pub const TIME: Self = Self {
-        time: 1,
-        ..Self::ONE
-    };
+    pub(super) const TIME: Self = Self::of(0, 0, 1, 0);
     /// The output's unit.
-    pub const OUTPUT: Self = Self {
-        output: 1,
-        ..Self::ONE
-    };
+    pub(super) const OUTPUT: Self = Self::of(0, 0, 0, 1);
+
+    const fn of(channel: i8, load: i8, time: i8, output: i8) -> Self {
+        Self {
+            channel,
+            load,
+            time,
+            output,
+            input: 0,
+        }
+    }
 }
 
 /// How a regressor responds to a change of sign.

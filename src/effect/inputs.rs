@@ -1,7 +1,20 @@
 //! The inputs of an effect at one sample, and its memory.
 
-use super::{Motion, Quantity};
+use super::Quantity;
 use crate::Real;
+
+/// Position, velocity and acceleration of one channel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Motion<T> {
+    /// x \[channel unit\]
+    pub position: T,
+    /// v \[channel unit/s\]
+    pub velocity: T,
+    /// a \[channel unit/s²\]
+    pub acceleration: T,
+}
 
 /// The inputs of an effect at one sample.
 ///
@@ -76,7 +89,6 @@ crate::checked::stored! {
 
 impl<T> EffectState<T> {
     /// A new state, before the first sample.
-    #[must_use]
     pub const fn new() -> Self {
         Self { memory: None }
     }

@@ -307,14 +307,6 @@ effect! {
     };
 }
 
-impl<T: Real> Hardening<T> {
-    /// The largest state over a motion within a range of this length.
-    #[must_use]
-    pub fn bound(&self, range: T) -> T {
-        saturate(grown(T::zero(), self.g, range.abs()))
-    }
-}
-
 /// The solution of `da/dp = 1 + rate·a` from a ≥ 0 after a path p ≥ 0.
 #[inline]
 fn grown<T: Real>(a: T, rate: T, p: T) -> T {

@@ -23,9 +23,8 @@ mod memory;
 mod signal;
 mod spring;
 
-pub use crate::signal::Motion;
 pub use info::{Dimension, Info, Parity, Quantity, Range, Regressor, ShapeInfo, Symmetry};
-pub use inputs::{EffectState, Inputs};
+pub use inputs::{EffectState, Inputs, Motion};
 
 use crate::{Error, Real};
 pub(crate) use bounds::saturate;
@@ -242,7 +241,6 @@ fn along<T: Real, R: Regressor<T>>(
 
 impl<T: Real> Effect<T> {
     /// The effect's own name, such as "drag-quadratic".
-    #[must_use]
     pub fn name(&self) -> &'static str {
         self.info().name
     }
@@ -305,13 +303,11 @@ impl<T: Real> Effect<T> {
     }
 
     /// Whether the effect reads the hysteresis state.
-    #[must_use]
     pub fn reads_eta(&self) -> bool {
         self.info().reads.contains(&Quantity::Eta)
     }
 
     /// Whether the effect reads the sum of all terms before it.
-    #[must_use]
     pub fn is_output_stage(&self) -> bool {
         self.info().stage == Stage::Output
     }
@@ -320,7 +316,6 @@ impl<T: Real> Effect<T> {
     ///
     /// The regressor then has the unit of the input, and the gain is dimensionless. Without a
     /// transmission the term has no influence.
-    #[must_use]
     pub fn is_input_stage(&self) -> bool {
         self.info().stage == Stage::Input
     }

@@ -90,22 +90,16 @@ crate::checked! {
 
 impl<T: Real> BoucWen<T> {
     /// Initial slope of eta [1/input unit].
-    #[inline]
-    #[must_use]
     pub fn rho(&self) -> T {
         self.rho
     }
 
     /// The slope after a reversal is 2·sigma·rho.
-    #[inline]
-    #[must_use]
     pub fn sigma(&self) -> T {
         self.sigma
     }
 
     /// Sharpness of the knee, larger is sharper.
-    #[inline]
-    #[must_use]
     pub fn n(&self) -> T {
         self.constants.n
     }

@@ -26,7 +26,6 @@ pub struct BoucWenState<T> {
 impl<T: Real> BoucWenState<T> {
     /// The initial state: eta is zero, and the first sample only sets the input.
     #[inline]
-    #[must_use]
     pub fn new() -> Self {
         Self {
             eta: T::zero(),
@@ -46,8 +45,6 @@ impl<T: Real> BoucWenState<T> {
     }
 
     /// The hysteresis state, in [-1, 1].
-    #[inline]
-    #[must_use]
     pub fn eta(&self) -> T {
         self.eta
     }
@@ -64,8 +61,6 @@ impl<T: Real> BoucWenState<T> {
     }
 
     /// The last good input, `None` before the first sample.
-    #[inline]
-    #[must_use]
     pub fn input(&self) -> Option<T> {
         self.input.is_finite().then_some(self.input)
     }
@@ -123,7 +118,6 @@ pub struct Sensitivity<T> {
 impl<T: Real> Sensitivity<T> {
     /// The start of a record at `eta0`: all derivatives with respect to the parameters are zero.
     #[inline]
-    #[must_use]
     pub fn start(eta0: T) -> Self {
         let zero = T::zero();
         Self {

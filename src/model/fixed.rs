@@ -56,20 +56,17 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
     }
 
     /// The transmission, if there is one.
-    #[must_use]
     pub fn transmission(&self) -> Option<&Transmission<T>> {
         self.transmission.as_ref()
     }
 
     /// The effects with their gains.
-    #[must_use]
     pub fn terms(&self) -> &L {
         &self.terms
     }
 
     /// The same model as a type that can hold any effects, for a
     /// [`Compensator`](crate::control::Compensator) or a file.
-    #[must_use]
     pub fn to_model(&self) -> Model<T, N> {
         Model::full(self.transmission, self.terms.any())
     }

@@ -26,7 +26,6 @@ pub struct ModelState<T, const N: usize> {
 
 impl<T: Real, const N: usize> ModelState<T, N> {
     /// A new state, before the first sample.
-    #[must_use]
     pub fn new() -> Self {
         Self::from_hysteresis(BoucWenState::new())
     }
@@ -50,19 +49,16 @@ impl<T: Real, const N: usize> ModelState<T, N> {
     }
 
     /// The hysteresis state, within ±1.
-    #[must_use]
     pub fn eta(&self) -> T {
         self.hysteresis.eta()
     }
 
     /// Time since the first good sample \[s\]; bad samples do not count.
-    #[must_use]
     pub fn time(&self) -> T {
         self.time.value
     }
 
     /// The last good output, 0 before the first one.
-    #[must_use]
     pub fn output(&self) -> T {
         self.output
     }

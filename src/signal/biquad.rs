@@ -162,27 +162,6 @@ crate::checked! {
 }
 
 impl<T: Real> Biquad<T> {
-    /// Corner of a low-pass, or centre of a notch \[Hz\].
-    #[inline]
-    #[must_use]
-    pub const fn frequency(&self) -> T {
-        self.design.frequency
-    }
-
-    /// The quality factor.
-    #[inline]
-    #[must_use]
-    pub const fn q(&self) -> T {
-        self.design.q
-    }
-
-    /// The sample time of the design \[s\].
-    #[inline]
-    #[must_use]
-    pub const fn sample_time(&self) -> T {
-        self.design.sample_time
-    }
-
     /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
     /// The first good sample starts the filter at rest: the output is that sample. A bad sample
@@ -234,7 +213,6 @@ impl<T: Real> Biquad<T> {
 impl<T: Real> BiquadState<T> {
     /// A state that starts at rest at the first good sample.
     #[inline]
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             value: None,
@@ -247,7 +225,6 @@ impl<T: Real> BiquadState<T> {
 
     /// A state at rest at a value \[signal unit\].
     #[inline]
-    #[must_use]
     pub const fn at(value: T) -> Self {
         Self {
             value: Some(value),
@@ -271,8 +248,6 @@ impl<T: Real> BiquadState<T> {
     }
 
     /// The output \[signal unit\]; zero before the first good sample.
-    #[inline]
-    #[must_use]
     pub fn value(&self) -> T {
         self.value.unwrap_or(T::ZERO)
     }

@@ -36,7 +36,6 @@ crate::checked::stored! {
 
 impl<T: Real> Compensated<T> {
     /// A sum with a carry of zero.
-    #[must_use]
     pub const fn new(value: T) -> Self {
         Self {
             value,

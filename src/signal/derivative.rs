@@ -60,8 +60,6 @@ impl<T: Real> Derivative<T> {
     }
 
     /// The time constant \[s\].
-    #[inline]
-    #[must_use]
     pub fn time_constant(&self) -> T {
         self.time_constant
     }
@@ -120,7 +118,6 @@ impl<T: Real> Derivative<T> {
 impl<T: Real> DerivativeState<T> {
     /// A state that starts at rate zero with the first good sample.
     #[inline]
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             last: None,
@@ -145,8 +142,6 @@ impl<T: Real> DerivativeState<T> {
     }
 
     /// The filtered rate [signal unit/s].
-    #[inline]
-    #[must_use]
     pub fn rate(&self) -> T {
         self.rate
     }

@@ -254,7 +254,6 @@ impl<T: Real> EdgeVelocity<T> {
 impl<T: Real> EdgeVelocityState<T> {
     /// A new state, before the first sample.
     #[inline]
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             last: None,
@@ -282,8 +281,6 @@ impl<T: Real> EdgeVelocityState<T> {
     }
 
     /// The velocity \[channel unit/s\]; zero until two counts are known.
-    #[inline]
-    #[must_use]
     pub fn velocity(&self) -> T {
         self.velocity.unwrap_or(T::ZERO)
     }

@@ -64,8 +64,6 @@ crate::checked! {
 
 impl<T: Real> LowPass<T> {
     /// The time constant \[s\].
-    #[inline]
-    #[must_use]
     pub const fn time_constant(&self) -> T {
         self.time_constant
     }
@@ -106,7 +104,6 @@ impl<T: Real> LowPass<T> {
 impl<T: Real> LowPassState<T> {
     /// A state that starts at rest at the first good sample.
     #[inline]
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             value: None,
@@ -116,7 +113,6 @@ impl<T: Real> LowPassState<T> {
 
     /// A state at rest at a value \[signal unit\].
     #[inline]
-    #[must_use]
     pub const fn at(value: T) -> Self {
         Self {
             value: Some(value),
@@ -131,8 +127,6 @@ impl<T: Real> LowPassState<T> {
     }
 
     /// The output \[signal unit\]; zero before the first good sample.
-    #[inline]
-    #[must_use]
     pub fn value(&self) -> T {
         self.value.unwrap_or(T::ZERO)
     }

@@ -9,7 +9,7 @@
 //! | [`LowPass`], [`Biquad`] | first-order and second-order filters, notch |
 //! | [`Derivative`] | filtered derivative |
 //! | [`Ramp`] | reference with limited rate |
-//! | [`Rates`] | [`Motion`] (position, velocity, acceleration) from the positions of a sensor |
+//! | [`Rates`] | [`Motion`](crate::effect::Motion) (position, velocity, acceleration) from the positions of a sensor |
 //! | [`EdgeVelocity`] | velocity from an encoder with few counts per sample |
 //!
 //! Configuration and state are separate types. After construction, nothing returns an error and
@@ -22,7 +22,6 @@ mod derivative;
 mod edges;
 mod gap;
 mod low_pass;
-mod motion;
 mod plausible;
 mod play;
 mod ramp;
@@ -37,7 +36,6 @@ pub use derivative::{Derivative, DerivativeState};
 pub use edges::{EdgeStatus, EdgeVelocity, EdgeVelocityOutput, EdgeVelocityState};
 pub(crate) use gap::gap_after;
 pub use low_pass::{LowPass, LowPassState};
-pub use motion::Motion;
 pub use plausible::{Implausible, Plausible, PlausibleOutput, PlausibleState};
 pub use play::{Play, PlayState};
 pub use ramp::{Ramp, RampState};

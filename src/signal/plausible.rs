@@ -267,7 +267,6 @@ impl<T: Real> Plausible<T> {
 
 impl<T: Real> PlausibleState<T> {
     /// A new state: the first sample may lie anywhere in the range.
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             last: None,
@@ -283,7 +282,6 @@ impl<T: Real> PlausibleState<T> {
     }
 
     /// The last plausible sample \[signal unit\], if there was one.
-    #[must_use]
     pub const fn last(&self) -> Option<T> {
         self.last
     }

@@ -60,8 +60,6 @@ impl<T: Real> Play<T> {
     };
 
     /// The half-width [input unit].
-    #[inline]
-    #[must_use]
     pub fn half_width(&self) -> T {
         self.half_width
     }
@@ -86,14 +84,11 @@ impl<T: Real> Play<T> {
 impl<T: Real> PlayState<T> {
     /// A state whose output starts at the first good sample.
     #[inline]
-    #[must_use]
     pub fn new() -> Self {
         Self { output: None }
     }
 
     /// The output [input unit], `None` before the first good sample.
-    #[inline]
-    #[must_use]
     pub fn output(&self) -> Option<T> {
         self.output
     }

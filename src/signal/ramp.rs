@@ -127,7 +127,6 @@ fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
 
 impl<T: Real> RampState<T> {
     /// A state at rest at a value \[signal unit\].
-    #[must_use]
     pub const fn at(value: T) -> Self {
         Self {
             ramp: value,
@@ -138,7 +137,6 @@ impl<T: Real> RampState<T> {
     }
 
     /// The reference \[signal unit\].
-    #[must_use]
     pub const fn value(&self) -> T {
         self.value
     }

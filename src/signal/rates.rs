@@ -1,6 +1,6 @@
 //! Causal velocity and acceleration from position samples.
 
-use super::Motion;
+use crate::effect::Motion;
 use crate::error::{above_zero, must_be_finite};
 use crate::real::of;
 use crate::{Error, Real};
@@ -225,22 +225,16 @@ crate::checked! {
 impl<T: Real> Rates<T> {
     /// The time constant \[s\]: the delay of the velocity, and half the delay of the
     /// acceleration.
-    #[inline]
-    #[must_use]
     pub fn time_constant(&self) -> T {
         self.time_constant
     }
 
     /// The longest time between two good samples that the rates bridge \[s\].
-    #[inline]
-    #[must_use]
     pub fn longest_gap(&self) -> T {
         self.longest_gap
     }
 
     /// The period of the positions \[channel unit\], if they wrap.
-    #[inline]
-    #[must_use]
     pub fn period(&self) -> Option<T> {
         self.period
     }
@@ -358,14 +352,11 @@ impl<T: Real> Rates<T> {
 impl<T: Real> RatesState<T> {
     /// A new state, before the first sample.
     #[inline]
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The motion at the last good sample, zero before the first one.
-    #[inline]
-    #[must_use]
     pub fn motion(&self) -> Motion<T> {
         self.motion
     }
@@ -373,8 +364,6 @@ impl<T: Real> RatesState<T> {
     /// The time of the bad samples since the last good one \[s\].
     ///
     /// It does not include unusable values of `dt`.
-    #[inline]
-    #[must_use]
     pub fn gap(&self) -> T {
         self.gap
     }

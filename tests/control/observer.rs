@@ -4,7 +4,7 @@ use bowden::constant;
 use bowden::control::{
     DisturbanceObserver, Fault, NominalPlant, ObserverInput, ObserverState, Status,
 };
-use bowden::signal::Motion;
+use bowden::effect::Motion;
 use bowden::{Error, Real};
 
 const DT: f64 = 1e-4;

@@ -6,7 +6,8 @@ use core_bowden::control::{
     Output, Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
 };
 use core_bowden::model::{Model, ModelState, Sample, Source};
-use core_bowden::signal::{Motion, Rates, RatesState};
+use core_bowden::effect::Motion;
+use core_bowden::signal::{Rates, RatesState};
 
 const DT: f32 = 0.001;
 const LONGEST_DT: f32 = 0.005;

@@ -29,8 +29,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(effect_inputs_new, EffectState::<T>::new());
 
     never_panics!(effect_declare_try_new, Coulomb::<T>::try_new(any()));
-    let hardening = black_box(Hardening::<T>::try_new(any(), any())).ok()?;
-    never_panics!(effect_memory_bound, hardening.bound(any()));
 
     let shapes = [T::one(), T::zero()];
     let shapes = black_box(&shapes[..]);

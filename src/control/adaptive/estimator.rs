@@ -122,7 +122,6 @@ pub struct Estimator<T> {
 
 impl<T: Real> Estimator<T> {
     /// A constant estimate: both bounds equal this value.
-    #[must_use]
     pub const fn fixed(value: T) -> Self {
         Self {
             initial: value,
@@ -135,7 +134,6 @@ impl<T: Real> Estimator<T> {
     }
 
     /// An estimate without bounds, as in the paper: only its leakage limits it.
-    #[must_use]
     pub const fn free(initial: T) -> Self {
         Self::fixed(initial).within(T::LOWEST, T::HIGHEST)
     }

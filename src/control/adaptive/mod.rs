@@ -72,21 +72,18 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     }
 
     /// The settings of this law.
-    #[must_use]
     pub fn settings(&self) -> &AdaptiveSettings<T, N> {
         &self.settings
     }
 
     /// Longest `dt` \[s\] that a step accepts: `longest_dt` of the settings or, in the
     /// first-order form, the [largest step](AdaptiveSettings::largest_step) if that is shorter.
-    #[must_use]
     pub fn longest_dt(&self) -> T {
         self.longest
     }
 
     /// Longest `dt` \[s\] that the box theorem of the first-order form admits; `None` for the
     /// form as published. See [`AdaptiveSettings::largest_step`].
-    #[must_use]
     pub fn largest_step(&self) -> Option<T> {
         self.settings.largest_step()
     }
@@ -122,7 +119,6 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
 impl<T: Real> Adaptive<T, 2> {
     /// The law with Table 2 of Nguyen et al. (2018): [`AdaptiveSettings::paper`].
-    #[must_use]
     pub fn paper() -> Self {
         Self::assumed(AdaptiveSettings::paper())
     }

@@ -34,7 +34,6 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// assert!((law.step(&mut state, &input).command - 31.0).abs() < 1e-9);
     /// # Ok::<(), bowden::Error>(())
     /// ```
-    #[must_use]
     pub fn resume_from(law: &Adaptive<T, N>, output: T, input: &AdaptiveInput<T, N>) -> Self {
         let mut state = Self::new(law);
         if output.is_finite() {

@@ -249,7 +249,6 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// the base of a struct update.
     ///
     /// beta_hat is one; delta_hat and theta_hat are zero. `longest_dt` is in \[s\].
-    #[must_use]
     pub const fn new(
         form: Form<T>,
         gain: T,
@@ -269,7 +268,6 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
 
     /// Settings for a simulation: no limits, any `dt` that the form admits, and the last command
     /// held indefinitely.
-    #[must_use]
     pub const fn unlimited(form: Form<T>, gain: T, lambda: T, epsilon: T) -> Self {
         Self {
             form,
@@ -320,7 +318,6 @@ impl<T: Real> AdaptiveSettings<T, 2> {
     /// assert_eq!(table_2.lambda * table_2.delta.gain, 0.05); // lambda·mu
     /// assert_eq!((table_2.beta.initial, table_2.delta.initial), (0.0, 7.0));
     /// ```
-    #[must_use]
     pub fn paper() -> Self {
         let leakage = T::from_f64(0.01);
         let velocity = Estimator::free(T::zero()).adapting(T::from_f64(0.004 / 8.0), leakage);

@@ -34,7 +34,6 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
     /// let input = AdaptiveInput::new(0.001, 25.0, 24.8, [0.1, 0.0]); // \[s\], [N·m], [N·m]
     /// assert_eq!((input.next_reference, input.feed_forward), (25.0, 0.0));
     /// ```
-    #[must_use]
     pub const fn new(dt: T, reference: T, measured: T, regressors: [T; N]) -> Self {
         Self {
             dt,
@@ -153,7 +152,6 @@ impl End {
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// A new state: the initial estimates, no accumulated error, and the permitted command nearest
     /// to zero.
-    #[must_use]
     pub fn new(law: &Adaptive<T, N>) -> Self {
         let settings = law.settings();
         let command = settings.limits.clamp(T::ZERO);
@@ -235,43 +233,36 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     }
 
     /// Accumulated error z \[N·m·s\], (17).
-    #[must_use]
     pub fn accumulated_error(&self) -> T {
         self.z.value
     }
 
     /// beta_hat \[command unit/(N·m)\], (24).
-    #[must_use]
     pub fn beta_hat(&self) -> T {
         self.beta.value
     }
 
     /// delta_hat \[N·m\], (25).
-    #[must_use]
     pub fn delta_hat(&self) -> T {
         self.delta.value
     }
 
     /// theta_hat_i \[N·m/unit of the regressor\], (26).
-    #[must_use]
     pub fn theta_hat(&self) -> [T; N] {
         self.theta.map(|theta| theta.value)
     }
 
     /// The applied command \[command unit\].
-    #[must_use]
     pub fn command(&self) -> T {
         self.held.command
     }
 
     /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
-    #[must_use]
     pub fn fault_counter(&self) -> u32 {
         self.held.score
     }
 
     /// Whether the safe command is latched.
-    #[must_use]
     pub fn is_latched(&self) -> bool {
         self.held.is_latched()
     }

@@ -29,7 +29,6 @@ pub struct Changed<T, const N: usize> {
 impl<T: Real, const N: usize> Changed<T, N> {
     /// Whether nothing was changed, so that the compensator equals that from
     /// [`Compensator::try_new`].
-    #[must_use]
     pub fn is_nothing(&self) -> bool {
         self.sigma.is_none() && self.rho.is_none() && self.left_out().next().is_none()
     }

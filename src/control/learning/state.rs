@@ -52,14 +52,11 @@ impl<T: Real, M: AsRef<[T]>> IterativeLearningState<T, M> {
 
     /// The learned value of each cell \[command unit\], within ±limit, for a plot or for a later
     /// [`resume`](super::IterativeLearning::resume).
-    #[inline]
-    #[must_use]
     pub fn learned(&self) -> &[T] {
         self.learned.as_ref()
     }
 
     /// The last feed-forward \[command unit\].
-    #[must_use]
     pub fn feed_forward(&self) -> T {
         self.output
     }

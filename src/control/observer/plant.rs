@@ -1,7 +1,7 @@
 //! The nominal plant: response to a command without friction.
 
+use crate::effect::Motion;
 use crate::error::{above_zero, finite, must_be_finite, not_below_zero};
-use crate::signal::Motion;
 use crate::{Error, Real};
 
 crate::checked::stored! {
@@ -13,7 +13,7 @@ crate::checked::stored! {
     ///
     /// ```
     /// use bowden::control::NominalPlant;
-    /// use bowden::signal::Motion;
+    /// use bowden::effect::Motion;
     /// // 0.6 N·m per unit, 0.2 kg·m², 2.7 N·m·s/rad, 130 N·m/rad.
     /// let plant = NominalPlant::of_mechanics(0.6_f64, 0.2, 2.7, 130.0)?;
     /// assert!((plant.natural_frequency() - 25.5).abs() < 0.01); // [rad/s]
@@ -80,22 +80,16 @@ impl<T: Real> NominalPlant<T> {
     }
 
     /// alpha \[output unit/command unit\].
-    #[inline]
-    #[must_use]
     pub const fn gain(&self) -> T {
         self.gain
     }
 
     /// wn \[rad/s\].
-    #[inline]
-    #[must_use]
     pub const fn natural_frequency(&self) -> T {
         self.natural_frequency
     }
 
     /// zeta.
-    #[inline]
-    #[must_use]
     pub const fn damping_ratio(&self) -> T {
         self.damping_ratio
     }

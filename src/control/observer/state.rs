@@ -66,7 +66,6 @@ impl<T: Real> ObserverState<T> {
     /// The first good sample counts as a steady state: the estimate is then the applied command
     /// minus the command that the nominal plant needs at rest. Use a new state after the drive was
     /// off, because a command that did not reach the motor must not count.
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             lags: None,
@@ -76,7 +75,6 @@ impl<T: Real> ObserverState<T> {
     }
 
     /// The last estimate \[command unit\].
-    #[must_use]
     pub const fn estimate(&self) -> T {
         self.estimate
     }

@@ -29,14 +29,12 @@ pub enum DerivativeSource<T> {
 
 impl<T: Real> DerivativeSource<T> {
     /// Derivative of the error, as in (14): a step of the reference causes a derivative kick.
-    #[must_use]
     pub const fn on_error() -> Self {
         Self::Rate { weight: T::ONE }
     }
 
     /// Derivative of the measurement, the default: a step of the reference causes no derivative
     /// kick.
-    #[must_use]
     pub const fn on_measurement() -> Self {
         Self::Rate { weight: T::ZERO }
     }
@@ -206,7 +204,6 @@ impl<T: Real> PidSettings<T> {
     ///
     /// It has full set-point weight and conditional anti-windup. A derivative, if `k_d` is set,
     /// acts on the measurement. `longest_dt` is in \[s\].
-    #[must_use]
     pub const fn new(
         k_p: T,
         k_i: T,
@@ -223,7 +220,6 @@ impl<T: Real> PidSettings<T> {
     }
 
     /// Settings for a simulation: no limits, any `dt`, and the last command held indefinitely.
-    #[must_use]
     pub const fn unlimited(k_p: T, k_i: T) -> Self {
         Self {
             k_p,

@@ -30,7 +30,6 @@ pub struct PidInput<T> {
 impl<T: Real> PidInput<T> {
     /// A sample without velocity or feed-forward, from `dt` \[s\] and the torques \[N·m\].
     #[inline]
-    #[must_use]
     pub fn new(dt: T, reference: T, measured: T) -> Self {
         Self {
             dt,

@@ -92,7 +92,6 @@ impl<T: Real> PidState<T> {
     ///
     /// A slew-rate limit starts from this zero. Use [`PidState::resume_from`] if another command is
     /// applied.
-    #[must_use]
     pub const fn new() -> Self {
         Self {
             integral: Compensated::new(T::ZERO),
@@ -199,36 +198,26 @@ impl<T: Real> PidState<T> {
     }
 
     /// The applied command \[command unit\].
-    #[inline]
-    #[must_use]
     pub fn command(&self) -> T {
         self.held.command
     }
 
     /// The integral term \[command unit\].
-    #[inline]
-    #[must_use]
     pub fn integral(&self) -> T {
         self.integral.value
     }
 
     /// The filtered rate of `y − c·y_r` \[output unit/s\]; zero if it is not used.
-    #[inline]
-    #[must_use]
     pub fn rate(&self) -> T {
         self.rate
     }
 
     /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
-    #[inline]
-    #[must_use]
     pub fn fault_counter(&self) -> u32 {
         self.held.score
     }
 
     /// Whether the safe command is latched.
-    #[inline]
-    #[must_use]
     pub fn is_latched(&self) -> bool {
         self.held.is_latched()
     }

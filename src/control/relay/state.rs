@@ -109,7 +109,6 @@ impl<T: Real> Mean<T> {
 
 impl<T: Real> RelayState<T> {
     /// A new state, before the first sample; its command is zero.
-    #[must_use]
     pub const fn new() -> Self {
         Self::starting_from(T::ZERO)
     }
@@ -142,44 +141,32 @@ impl<T: Real> RelayState<T> {
     }
 
     /// The applied command \[command unit\].
-    #[inline]
-    #[must_use]
     pub const fn command(&self) -> T {
         self.held.command
     }
 
     /// Phase after the last sample.
-    #[inline]
-    #[must_use]
     pub const fn phase(&self) -> RelayPhase<T> {
         self.phase
     }
 
     /// Number of complete cycles, including cycles outside the average.
-    #[inline]
-    #[must_use]
     pub const fn cycles(&self) -> u32 {
         self.cycles
     }
 
     /// The remaining time in units of `longest_time`/(2³² − 1); every sample of a running
     /// experiment reduces it.
-    #[inline]
-    #[must_use]
     pub const fn remaining(&self) -> u32 {
         self.remaining
     }
 
     /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
-    #[inline]
-    #[must_use]
     pub const fn fault_counter(&self) -> u32 {
         self.held.score
     }
 
     /// Whether the safe command is latched.
-    #[inline]
-    #[must_use]
     pub fn is_latched(&self) -> bool {
         matches!(self.phase, RelayPhase::Failed(_)) || self.held.is_latched()
     }
