@@ -358,7 +358,7 @@ impl Safety {
                 ..plain
             },
         };
-        Pid::try_new(settings).map(PidSettings::from)
+        Pid::try_new(settings).map(|pid| *pid.settings())
     }
 }
 
