@@ -124,10 +124,10 @@ fn main() -> Result<(), Error> {
     }
     let (compensator, changed) = Compensator::try_nearest(&model)?;
     if let Some(sigma) = changed.sigma {
-        println!("try_nearest: sigma {:.4} -> {:.4}", sigma.from, sigma.to);
+        println!("try_nearest: sigma {:.4} -> {:.4}", sigma.0, sigma.1);
     }
     if let Some(rho) = changed.rho {
-        println!("try_nearest: rho {:.4} -> {:.4}", rho.from, rho.to);
+        println!("try_nearest: rho {:.4} -> {:.4}", rho.0, rho.1);
     }
     for term in changed.left_out() {
         println!("try_nearest: without {}", model.terms()[term].effect.name());

@@ -33,6 +33,8 @@ macro_rules! checked {
         impl<T: crate::Real $(, const $n: usize)?> $config<T $(, $n)?> {
             $(
                 $(#[$doc])*
+                // A `?` is not constant.
+                #[allow(clippy::question_mark)]
                 pub fn $name($($this,)? $($arg: $kind),*) -> Result<Self, crate::Error> {
                     $(let $it = $this;)?
                     $body

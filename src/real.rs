@@ -22,6 +22,7 @@ macro_rules! calls {
         )+
     };
 }
+pub(crate) use calls;
 
 /// [`Real::from_f64`] under a name that a `const fn` of a constructor can have too.
 #[inline]

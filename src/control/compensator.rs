@@ -25,7 +25,7 @@ use crate::{Error, Real};
 mod applied;
 mod nearest;
 
-pub use nearest::{Changed, Lowered};
+pub use nearest::Changed;
 
 #[cfg(kani)]
 #[path = "../../proofs/compensator.rs"]

@@ -49,7 +49,6 @@ pub use adaptive::{
 };
 pub use compensator::{
     BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
-    Lowered,
 };
 pub use controller::{Controller, LoopSample, Output};
 pub use learning::{

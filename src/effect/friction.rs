@@ -64,7 +64,7 @@ effect! {
     /// ```
     /// use bowden::{effect::PowerLaw, Error};
     /// assert!(PowerLaw::try_new(0.4).is_ok());
-    /// assert!(PowerLaw::try_new(0.0), Err(Error::OutOfRange("a")));
+    /// assert_eq!(PowerLaw::try_new(0.0), Err(Error::OutOfRange("a")));
     /// ```
     PowerLaw {
         /// Exponent.
@@ -94,8 +94,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Coulomb, Error};
-    /// assert_eq!(Coulomb::try_new(0.5).is_ok());
-    /// assert!(Coulomb::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// assert!(Coulomb::try_new(0.5).is_ok());
+    /// assert_eq!(Coulomb::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     Coulomb {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].
@@ -123,8 +123,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Stribeck, Error};
-    /// assert_eq!(Stribeck::try_new(0.5, 2.0).is_ok());
-    /// assert!(Stribeck::try_new(0.0, 2.0), Err(Error::OutOfRange("v_s")));
+    /// assert!(Stribeck::try_new(0.5, 2.0).is_ok());
+    /// assert_eq!(Stribeck::try_new(0.0, 2.0), Err(Error::OutOfRange("v_s")));
     /// ```
     Stribeck {
         /// Stribeck velocity \[channel unit/s\].
@@ -150,8 +150,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::LoadFriction, Error};
-    /// assert_eq!(LoadFriction::try_new(0.5).is_ok());
-    /// assert!(LoadFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// assert!(LoadFriction::try_new(0.5).is_ok());
+    /// assert_eq!(LoadFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     LoadFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].
@@ -178,8 +178,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Capstan, Error};
-    /// assert_eq!(Capstan::try_new(0.5, 0.2).is_ok());
-    /// assert!(Capstan::try_new(0.0, 0.2), Err(Error::OutOfRange("v_e")));
+    /// assert!(Capstan::try_new(0.5, 0.2).is_ok());
+    /// assert_eq!(Capstan::try_new(0.0, 0.2), Err(Error::OutOfRange("v_e")));
     /// assert_eq!(Capstan::try_new(0.5, 0.0), Err(Error::OutOfRange("mu")));
     /// ```
     Capstan {
@@ -217,8 +217,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::DriveFriction, Error};
-    /// assert_eq!(DriveFriction::try_new(0.5).is_ok());
-    /// assert!(DriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// assert!(DriveFriction::try_new(0.5).is_ok());
+    /// assert_eq!(DriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     DriveFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].
@@ -242,8 +242,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::BackDriveFriction, Error};
-    /// assert_eq!(BackDriveFriction::try_new(0.5).is_ok());
-    /// assert!(BackDriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
+    /// assert!(BackDriveFriction::try_new(0.5).is_ok());
+    /// assert_eq!(BackDriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     BackDriveFriction {
         /// Velocity at which friction reaches 76 % \[channel unit/s\].
@@ -282,7 +282,7 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::PositionFriction, Error};
-    /// assert_eq!(PositionFriction::try_new(0.5).is_ok());
+    /// assert!(PositionFriction::try_new(0.5).is_ok());
     /// assert_eq!(PositionFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     PositionFriction {

@@ -24,7 +24,7 @@ effect! {
     /// ```
     /// use bowden::{effect::Backlash, Error};
     /// assert!(Backlash::try_new(0.5).is_ok());
-    /// assert!(Backlash::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// assert_eq!(Backlash::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     Backlash {
         /// Half-width of the gap \[channel unit\].
@@ -53,8 +53,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::PlayInSeries, Error};
-    /// assert_eq!(PlayInSeries::try_new(0.5).is_ok());
-    /// assert!(PlayInSeries::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// assert!(PlayInSeries::try_new(0.5).is_ok());
+    /// assert_eq!(PlayInSeries::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     PlayInSeries {
         /// Half-width of the gap \[input unit\].
@@ -72,8 +72,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::DeadZone, Error};
-    /// assert_eq!(DeadZone::try_new(0.5).is_ok());
-    /// assert!(DeadZone::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// assert!(DeadZone::try_new(0.5).is_ok());
+    /// assert_eq!(DeadZone::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     DeadZone {
         /// Half-width of the gap \[channel unit\].
@@ -103,8 +103,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Presliding, Error};
-    /// assert_eq!(Presliding::try_new(0.5).is_ok());
-    /// assert!(Presliding::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// assert!(Presliding::try_new(0.5).is_ok());
+    /// assert_eq!(Presliding::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     Presliding {
         /// Distance at which the spring slips \[channel unit\].
@@ -128,8 +128,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::PreslidingDahl, Error};
-    /// assert_eq!(PreslidingDahl::try_new(0.5).is_ok());
-    /// assert!(PreslidingDahl::try_new(0.0), Err(Error::OutOfRange("r")));
+    /// assert!(PreslidingDahl::try_new(0.5).is_ok());
+    /// assert_eq!(PreslidingDahl::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     PreslidingDahl {
         /// Distance after which the change reaches 63 % \[channel unit\].
@@ -174,8 +174,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Degradation, Error};
-    /// assert_eq!(Degradation::try_new(40.0).is_ok());
-    /// assert!(Degradation::try_new(0.0), Err(Error::OutOfRange("w_c")));
+    /// assert!(Degradation::try_new(40.0).is_ok());
+    /// assert_eq!(Degradation::try_new(0.0), Err(Error::OutOfRange("w_c")));
     /// ```
     Degradation {
         /// Work after which the change reaches 63 % \[input unit\].
@@ -207,8 +207,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Creep, Error};
-    /// assert_eq!(Creep::try_new(0.5).is_ok());
-    /// assert!(Creep::try_new(0.0), Err(Error::OutOfRange("tau")));
+    /// assert!(Creep::try_new(0.5).is_ok());
+    /// assert_eq!(Creep::try_new(0.0), Err(Error::OutOfRange("tau")));
     /// ```
     Creep {
         /// Time constant \[s\].
@@ -271,8 +271,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Hardening, Error};
-    /// assert_eq!(Hardening::try_new(300.0, 800.0).is_ok());
-    /// assert!(Hardening::try_new(300.0, -800.0), Err(Error::OutOfRange("beta")));
+    /// assert!(Hardening::try_new(300.0, 800.0).is_ok());
+    /// assert_eq!(Hardening::try_new(300.0, -800.0), Err(Error::OutOfRange("beta")));
     /// ```
     Hardening {
         /// Growth of the slope with the state \[1/channel unit\].
@@ -327,7 +327,7 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Lag, Error};
-    /// assert_eq!(Lag::try_new(0.5).is_ok());
+    /// assert!(Lag::try_new(0.5).is_ok());
     /// assert_eq!(Lag::try_new(0.0), Err(Error::OutOfRange("tau")));
     /// ```
     Lag {

@@ -61,7 +61,7 @@ effect! {
     /// ```
     /// use bowden::{effect::Tone, Error};
     /// assert!(Tone::try_new(0.5, 2.0).is_ok());
-    /// assert!(Tone::try_new(0.0, 2.0), Err(Error::OutOfRange("f")));
+    /// assert_eq!(Tone::try_new(0.0, 2.0), Err(Error::OutOfRange("f")));
     /// ```
     Tone {
         /// Frequency \[Hz\].
@@ -87,8 +87,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Pretension, Error};
-    /// assert_eq!(Pretension::try_new(0.5).is_ok());
-    /// assert!(Pretension::try_new(f64::NAN), Err(Error::NonFinite("t_s")));
+    /// assert!(Pretension::try_new(0.5).is_ok());
+    /// assert_eq!(Pretension::try_new(f64::NAN), Err(Error::NonFinite("t_s")));
     /// ```
     Pretension {
         /// Time of the step \[s\].
@@ -114,7 +114,7 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Temperature, Error};
-    /// assert_eq!(Temperature::try_new(0.5).is_ok());
+    /// assert!(Temperature::try_new(0.5).is_ok());
     /// assert_eq!(Temperature::try_new(f64::NAN), Err(Error::NonFinite("t_ref")));
     /// ```
     Temperature {

@@ -56,7 +56,7 @@ effect! {
     /// ```
     /// use bowden::{effect::Hinge, Error};
     /// assert!(Hinge::try_new(0.5).is_ok());
-    /// assert!(Hinge::try_new(f64::NAN), Err(Error::NonFinite("x_h")));
+    /// assert_eq!(Hinge::try_new(f64::NAN), Err(Error::NonFinite("x_h")));
     /// ```
     Hinge {
         /// Position at which the spring engages \[channel unit\].
@@ -113,8 +113,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Gravity, Error};
-    /// assert_eq!(Gravity::try_new(0.5).is_ok());
-    /// assert!(Gravity::try_new(f64::NAN), Err(Error::NonFinite("psi")));
+    /// assert!(Gravity::try_new(0.5).is_ok());
+    /// assert_eq!(Gravity::try_new(f64::NAN), Err(Error::NonFinite("psi")));
     /// ```
     Gravity {
         /// Angle of the lever at x = 0, against the vertical \[rad\].
@@ -134,8 +134,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Ripple, Error};
-    /// assert_eq!(Ripple::try_new(0.5, 2.0).is_ok());
-    /// assert!(Ripple::try_new(0.0, 2.0), Err(Error::OutOfRange("k")));
+    /// assert!(Ripple::try_new(0.5, 2.0).is_ok());
+    /// assert_eq!(Ripple::try_new(0.0, 2.0), Err(Error::OutOfRange("k")));
     /// ```
     Ripple {
         /// Angular order \[1/channel unit\].
@@ -157,8 +157,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::SaturationUpper, Error};
-    /// assert_eq!(SaturationUpper::try_new(0.5).is_ok());
-    /// assert!(SaturationUpper::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
+    /// assert!(SaturationUpper::try_new(0.5).is_ok());
+    /// assert_eq!(SaturationUpper::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
     /// ```
     SaturationUpper {
         /// Start of the saturation \[channel unit\].
@@ -176,8 +176,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::SaturationLower, Error};
-    /// assert_eq!(SaturationLower::try_new(0.5).is_ok());
-    /// assert!(SaturationLower::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
+    /// assert!(SaturationLower::try_new(0.5).is_ok());
+    /// assert_eq!(SaturationLower::try_new(f64::NAN), Err(Error::NonFinite("x_s")));
     /// ```
     SaturationLower {
         /// Start of the saturation \[channel unit\].
@@ -206,8 +206,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::CurvePosition, Error};
-    /// assert_eq!(CurvePosition::try_new(-0.5, 2.0).is_ok());
-    /// assert!(CurvePosition::try_new(-0.5, 0.0), Err(Error::OutOfRange("width")));
+    /// assert!(CurvePosition::try_new(-0.5, 2.0).is_ok());
+    /// assert_eq!(CurvePosition::try_new(-0.5, 0.0), Err(Error::OutOfRange("width")));
     /// ```
     CurvePosition {
         /// Position at which the segment begins \[channel unit\].
@@ -227,8 +227,8 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::CurveVelocity, Error};
-    /// assert_eq!(CurveVelocity::try_new(-0.5, 2.0).is_ok());
-    /// assert!(CurveVelocity::try_new(f64::NAN, 2.0), Err(Error::NonFinite("from")));
+    /// assert!(CurveVelocity::try_new(-0.5, 2.0).is_ok());
+    /// assert_eq!(CurveVelocity::try_new(f64::NAN, 2.0), Err(Error::NonFinite("from")));
     /// ```
     CurveVelocity {
         /// Velocity at which the segment begins \[channel unit/s\].
@@ -264,7 +264,7 @@ effect! {
     ///
     /// ```
     /// use bowden::{effect::Pinching, Error};
-    /// assert_eq!(Pinching::try_new(0.5).is_ok());
+    /// assert!(Pinching::try_new(0.5).is_ok());
     /// assert_eq!(Pinching::try_new(0.0), Err(Error::OutOfRange("w")));
     /// ```
     Pinching {

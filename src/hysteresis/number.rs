@@ -3,6 +3,7 @@
 //! The step is written once. On plain floats it is the step; on [`Dual`] it is the exact
 //! derivative of the same step, branch for branch.
 
+use crate::real::calls;
 use crate::real::sealed::Sealed;
 use crate::Real;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -53,37 +54,15 @@ impl<T: Real> Number for T {
     fn shift(self, by: T) -> T {
         self + by
     }
-    #[inline]
-    fn abs(self) -> T {
-        num_traits::float::FloatCore::abs(self)
-    }
-    #[inline]
-    fn exp(self) -> T {
-        Real::exp(self)
-    }
-    #[inline]
-    fn ln(self) -> T {
-        Real::ln(self)
-    }
-    #[inline]
-    fn sqrt(self) -> T {
-        Real::sqrt(self)
-    }
-    #[inline]
-    fn log2(self) -> T {
-        Sealed::log2(self)
-    }
-    #[inline]
-    fn exp2(self) -> T {
-        Sealed::exp2(self)
-    }
-    #[inline]
-    fn coarse_log2(self) -> T {
-        Sealed::coarse_log2(self)
-    }
-    #[inline]
-    fn coarse_power(self, exponent: T) -> T {
-        Sealed::coarse_power(self, exponent)
+    calls! {
+        abs() = num_traits::float::FloatCore::abs;
+        exp() = Real::exp;
+        ln() = Real::ln;
+        sqrt() = Real::sqrt;
+        log2() = Sealed::log2;
+        exp2() = Sealed::exp2;
+        coarse_log2() = Sealed::coarse_log2;
+        coarse_power(exponent) = Sealed::coarse_power;
     }
 }
 

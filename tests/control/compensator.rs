@@ -117,13 +117,13 @@ fn the_nearest_model_tells_what_it_lowered_and_what_it_left_out() {
     let (compensator, changed) = Compensator::try_nearest(&model).unwrap();
     let most = 0.9978 / (2.0 * 7.004 * 0.095_82);
     let sigma = changed.sigma.unwrap();
-    assert_eq!((sigma.from, changed.rho), (98.36, None));
-    assert!((sigma.to - most).abs() < 1e-14, "{sigma:?}"); // rounding
+    assert_eq!((sigma.0, changed.rho), (98.36, None));
+    assert!((sigma.1 - most).abs() < 1e-14, "{sigma:?}"); // rounding
     assert_eq!(changed.left_out().collect::<Vec<_>>(), [0, 2]);
     assert!(!changed.is_nothing());
 
     // What is left is the model with that sigma and the other two terms.
-    let kept = Model::<f64, 2>::try_new(Some(cable(sigma.to)), &[terms[1], terms[3]]).unwrap();
+    let kept = Model::<f64, 2>::try_new(Some(cable(sigma.1)), &[terms[1], terms[3]]).unwrap();
     let by_hand = Compensator::try_new(&kept).unwrap();
     let (mut a, mut b) = (CompensatorState::new(), CompensatorState::new());
     for k in 0..1000 {
@@ -153,10 +153,7 @@ fn a_knee_that_no_sigma_mends_is_made_rounder() {
     let model = Model::<f32, 0>::try_new(Some(cable), &[]).unwrap();
     let (compensator, changed) = Compensator::try_nearest(&model).unwrap();
     let (sigma, rho) = (changed.sigma.unwrap(), changed.rho.unwrap());
-    assert_eq!(
-        [sigma.from, sigma.to, rho.from, rho.to],
-        [3.0, 0.5, 2.0, 0.25]
-    );
+    assert_eq!([sigma.0, sigma.1, rho.0, rho.1], [3.0, 0.5, 2.0, 0.25]);
     assert_eq!(compensator.transmission().kappa_eta(), 4.0);
     let none = Model::<f32, 0>::try_new(None, &[]).unwrap();
     let flat = Transmission::torque(0.0, 4.0, 0.0, shape).unwrap();

@@ -4,25 +4,14 @@ use super::Compensator;
 use crate::model::{Model, Term};
 use crate::{Error, Real};
 
-/// A parameter before and after.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Lowered<T> {
-    /// The value as identified.
-    pub from: T,
-    /// The value as inverted.
-    pub to: T,
-}
-
 /// The differences between the model of a [`Compensator`] and the identified model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Changed<T, const N: usize> {
-    /// Sigma, if it was lowered.
-    pub sigma: Option<Lowered<T>>,
-    /// Rho \[1/input unit\], if sigma = 1/2 was not sufficient.
-    pub rho: Option<Lowered<T>>,
+    /// Sigma as identified and as inverted, if it was lowered.
+    pub sigma: Option<(T, T)>,
+    /// Rho \[1/input unit\] likewise, if sigma = 1/2 was not sufficient.
+    pub rho: Option<(T, T)>,
     left_out: [bool; N],
 }
 
@@ -76,7 +65,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// assert!(Compensator::try_new(&model).is_err());
     /// let (_compensator, changed) = Compensator::try_nearest(&model)?;
-    /// assert!(changed.sigma.is_some_and(|sigma| sigma.from == 2.97 && sigma.to < 0.545));
+    /// assert!(changed.sigma.is_some_and(|sigma| sigma.0 == 2.97 && sigma.1 < 0.545));
     /// assert_eq!((changed.rho, changed.left_out().next()), (None, Some(1)));
     /// # Ok::<(), bowden::Error>(())
     /// ```
@@ -89,7 +78,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             .transmission()
             .ok_or(Error::Inadmissible("the model must have a transmission"))?;
         let transmission = identified.nearest_invertible()?;
-        let lowered = |from: T, to: T| (from != to).then_some(Lowered { from, to });
+        let lowered = |from: T, to: T| (from != to).then_some((from, to));
         let (before, after) = (identified.shape(), transmission.shape());
         let mut left_out = [false; N];
         for (is_left_out, term) in left_out.iter_mut().zip(model.terms()) {

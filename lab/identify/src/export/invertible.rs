@@ -15,7 +15,7 @@ pub use crate::model::kind::is_stage;
 use crate::model::structure::{Role, Structure};
 use crate::problem::Prepared;
 use crate::search::close;
-use bowden::control::{Changed, Compensator, Lowered};
+use bowden::control::{Changed, Compensator};
 use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample, Term};
 use bowden::Real;
@@ -192,7 +192,7 @@ pub fn stages(data: &Prepared, solution: &Solution) -> Vec<String> {
 pub fn words<const N: usize>(changed: &Changed<f64, N>, terms: &[Term<f64>]) -> String {
     let lowered = [("sigma", changed.sigma), ("rho", changed.rho)];
     let lowered = lowered.into_iter().filter_map(|(name, lowered)| {
-        let Lowered { from, to } = lowered?;
+        let (from, to) = lowered?;
         let (from, to) = (three_digits(from), three_digits(to));
         Some(format!("{name} {from} → {to}"))
     });
