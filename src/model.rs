@@ -167,7 +167,7 @@ struct Stages {
 
 impl Stages {
     fn of<T: Real>(terms: &[Term<T>]) -> Self {
-        let has = |stage| terms.iter().any(|term| term.effect.info().stage == stage);
+        let has = |stage| terms.iter().any(|term| term.effect.stage() == stage);
         Self {
             input: has(Stage::Input),
             output: has(Stage::Output),
@@ -281,7 +281,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         self.terms().iter().position(|term| {
             !motion_of(term.source, at).is_some_and(|motion| {
                 there.motion = counted_from(term.origin, motion);
-                there.is_usable(term.effect.info().reads)
+                there.is_usable(term.effect.reads())
             })
         })
     }
@@ -379,7 +379,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         loop {
             let places = self.terms().iter().zip(&mut state.effects).enumerate();
             for (index, (term, memory)) in places {
-                if term.effect.info().stage != stage {
+                if term.effect.stage() != stage {
                     continue;
                 }
                 let Some(motion) = seen(term.source, term.origin, at) else {

@@ -71,6 +71,20 @@ macro_rules! effects {
                 }
             }
 
+            /// Position of the effect in a model: a table of its own, without the other properties.
+            pub(crate) fn stage(&self) -> Stage {
+                match &self.0 {
+                    $(Kind::$effect(_) => <$effect $(<$T>)? as Regressor<T>>::INFO.stage,)+
+                }
+            }
+
+            /// The quantities that the effect reads, likewise.
+            pub(crate) fn reads(&self) -> &'static [Quantity] {
+                match &self.0 {
+                    $(Kind::$effect(_) => <$effect $(<$T>)? as Regressor<T>>::INFO.reads,)+
+                }
+            }
+
             /// The value of one shape parameter.
             #[must_use]
             pub fn shape(&self, index: usize) -> Option<T> {
@@ -279,7 +293,7 @@ impl<T: Real> Effect<T> {
     #[inline]
     pub fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let part = match &self.0 {
-            Kind::Delay(delay) if at.is_usable(self.info().reads) => {
+            Kind::Delay(delay) if at.is_usable(<Delay as Regressor<T>>::INFO.reads) => {
                 Regressor::contribution(delay, gain, state, at)
             }
             _ => gain * self.regressor(state, at),
@@ -304,12 +318,12 @@ impl<T: Real> Effect<T> {
 
     /// Whether the effect reads the hysteresis state.
     pub fn reads_eta(&self) -> bool {
-        self.info().reads.contains(&Quantity::Eta)
+        self.reads().contains(&Quantity::Eta)
     }
 
     /// Whether the effect reads the sum of all terms before it.
     pub fn is_output_stage(&self) -> bool {
-        self.info().stage == Stage::Output
+        self.stage() == Stage::Output
     }
 
     /// Whether the effect acts on the transmission's input instead of adding to the output.
@@ -317,6 +331,6 @@ impl<T: Real> Effect<T> {
     /// The regressor then has the unit of the input, and the gain is dimensionless. Without a
     /// transmission the term has no influence.
     pub fn is_input_stage(&self) -> bool {
-        self.info().stage == Stage::Input
+        self.stage() == Stage::Input
     }
 }

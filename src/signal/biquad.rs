@@ -1,7 +1,6 @@
 //! A second-order low-pass and a notch.
 
 use super::Compensated;
-use crate::checked::Finite;
 use crate::error::above_zero;
 use crate::real::{as_f64, of};
 use crate::{Error, Real};
@@ -202,7 +201,7 @@ impl<T: Real> Biquad<T> {
             low: low.value,
             low_carry: low.carry,
         };
-        if next.all_finite() {
+        if next.is_finite() {
             next
         } else {
             BiquadState::at(sample)
@@ -250,6 +249,14 @@ impl<T: Real> BiquadState<T> {
     /// The output \[signal unit\]; zero before the first good sample.
     pub fn value(&self) -> T {
         self.value.unwrap_or(T::ZERO)
+    }
+
+    /// As [`Finite`](crate::checked::Finite), in fewer instructions.
+    #[inline]
+    fn is_finite(&self) -> bool {
+        let integrators = self.band.is_finite() && self.low.is_finite();
+        let carries = self.band_carry.is_finite() && self.low_carry.is_finite();
+        integrators && carries && self.value().is_finite()
     }
 }
 

@@ -149,7 +149,7 @@ crate::checked! {
         }
     }
 
-    fn check[](it: &Estimator<T>, names: &Names) -> Result<(), Error> {
+    fn check_estimator[](it: &Estimator<T>, names: &Names) -> Result<(), Error> {
         must_be_finite!(it.low, names.low);
         must_be_finite!(it.high, names.high);
         must_be_finite!(it.prior, names.prior);
@@ -180,31 +180,21 @@ crate::checked! {
         }
     }
 
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
-    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
-    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
-    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
-    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
-    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
-    pub fn try_new(settings: AdaptiveSettings<T, N>) {
-        let s = &settings;
+    fn check[, const N: usize](s: &AdaptiveSettings<T, N>) -> Result<(), Error> {
         above_zero!(s.gain, "gain");
         above_zero!(s.lambda, "lambda");
         above_zero!(s.epsilon, "epsilon");
         above_zero!(s.z_limit, "z_limit");
-        if let Err(error) = check(&s.beta, &BETA) {
+        if let Err(error) = check_estimator(&s.beta, &BETA) {
             return Err(error);
         }
-        if let Err(error) = check(&s.delta, &DELTA) {
+        if let Err(error) = check_estimator(&s.delta, &DELTA) {
             return Err(error);
         }
         // A `for` is not constant.
         let mut i = 0;
         while i < N {
-            if let Err(error) = check(&s.theta[i], &THETA) {
+            if let Err(error) = check_estimator(&s.theta[i], &THETA) {
                 return Err(error);
             }
             i += 1;
@@ -239,8 +229,23 @@ crate::checked! {
                 }
             }
         }
-        let longest = longest(s);
-        Ok(Adaptive { settings, longest })
+        Ok(())
+    }
+
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
+    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
+    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
+    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
+    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
+    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
+    pub fn try_new(settings: AdaptiveSettings<T, N>) {
+        if let Err(error) = check(&settings) {
+            return Err(error);
+        }
+        Ok(Adaptive { longest: longest(&settings), settings })
     }
 }
 

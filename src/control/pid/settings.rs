@@ -251,14 +251,7 @@ crate::checked! {
             && s.period.is_none()
     }
 
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
-    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
-    /// [`PidSettings`] state both.
-    pub fn try_new(settings: PidSettings<T>) {
-        let s = &settings;
+    fn check[](s: &PidSettings<T>) -> Result<(), Error> {
         must_be_finite!(s.k_p, "k_p");
         must_be_finite!(s.k_i, "k_i");
         must_be_finite!(s.k_d, "k_d");
@@ -300,7 +293,19 @@ crate::checked! {
                 return Err(Error::Inadmissible(OUTSIDE));
             }
         }
-        let plain = is_plain(s);
-        Ok(Pid { plain, settings })
+        Ok(())
+    }
+
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
+    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
+    /// [`PidSettings`] state both.
+    pub fn try_new(settings: PidSettings<T>) {
+        if let Err(error) = check(&settings) {
+            return Err(error);
+        }
+        Ok(Pid { plain: is_plain(&settings), settings })
     }
 }
