@@ -12,8 +12,9 @@
 /// ```
 /// Each becomes a function for any float and, in [`Constant`](crate::Constant), a `const fn` for
 /// `f32` and for `f64` with the same body: [`constant!`](crate::constant) calls these. A body
-/// names the configuration, not `Self`; `of` and `as_f64` convert a number. The brackets of a helper
-/// hold further generics, such as `[, const N: usize]`.
+/// names the configuration, not `Self`, and has no `?` and no `for`, which are not constant; `of` and
+/// `as_f64` convert a number. The brackets of a helper hold further generics, such as
+/// `[, const N: usize]`.
 macro_rules! checked {
     (
         $config:ident<T $(, $n:ident)?>;
@@ -25,6 +26,7 @@ macro_rules! checked {
         )+
     ) => {
         $(
+            #[allow(clippy::question_mark)]
             pub(super) fn $helper<T: crate::Real $($generic)*>(
                 $($given: $given_type),*
             ) -> $result $helper_body
@@ -33,7 +35,6 @@ macro_rules! checked {
         impl<T: crate::Real $(, const $n: usize)?> $config<T $(, $n)?> {
             $(
                 $(#[$doc])*
-                // A `?` is not constant.
                 #[allow(clippy::question_mark)]
                 pub fn $name($($this,)? $($arg: $kind),*) -> Result<Self, crate::Error> {
                     $(let $it = $this;)?
