@@ -1,5 +1,6 @@
 //! `cargo xtask`: tasks of the repository.
 
+mod ci;
 mod house;
 mod source;
 
@@ -10,12 +11,18 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 cargo xtask COMMAND
 
-  house   code lines, interface, constants and tests, each with its goal
+  house       code lines, interface, constants and tests, each with its goal
+  ci STEP…    what .ci/run runs: these steps, or every step
 ";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    if let [command, names @ ..] = &arguments[..] {
+        if command == "ci" {
+            return ci::main(&root, names);
+        }
+    }
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["house"] => match house::counts(&root) {
             Ok(counts) => print(&house::table(&counts)),
