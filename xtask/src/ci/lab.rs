@@ -46,8 +46,8 @@ fn same_row(page: &str, printed: &str, cell: &str) -> bool {
         Some([number()?, number()?])
     };
     let is_row = |line: &&str| line.trim_start_matches("| ").split(' ').next() == Some(cell);
-    let kept = page.lines().filter(|line| line.starts_with('|'));
-    let kept = kept.filter(is_row).next_back().and_then(numbers);
+    let mut kept = page.lines().filter(|line| line.starts_with('|'));
+    let kept = kept.rfind(is_row).and_then(numbers);
     let now = printed.lines().find(is_row).and_then(numbers);
     match (kept, now) {
         (Some(kept), Some(now)) => {
