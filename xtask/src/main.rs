@@ -2,6 +2,7 @@
 
 mod ci;
 mod house;
+mod mutants;
 mod source;
 
 use std::io::Write;
@@ -13,22 +14,28 @@ cargo xtask COMMAND
 
   house       code lines, interface, constants and tests, each with its goal
   ci STEP…    what .ci/run runs: these steps, or every step
+  mutants WORD…
+              the changes of mutants.txt that contain a word, or all: does the test of each fail?
 ";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    if let [command, names @ ..] = &arguments[..] {
-        if command == "ci" {
-            return ci::main(&root, names);
-        }
-    }
-    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["house"] => match house::counts(&root) {
+    let Some((command, rest)) = arguments.split_first() else {
+        return complain(USAGE);
+    };
+    match (command.as_str(), rest) {
+        ("ci", steps) => ci::main(&root, steps),
+        ("mutants", words) => match mutants::run(&root, words) {
+            Ok(0) => ExitCode::SUCCESS,
+            Ok(survived) => complain(&format!("{survived} mutants have not failed a test")),
+            Err(error) => complain(&format!("cannot run the mutants: {error}")),
+        },
+        ("house", []) => match house::counts(&root) {
             Ok(counts) => print(&house::table(&counts)),
             Err(error) => complain(&format!("cannot count: {error}")),
         },
-        ["--help"] => print(USAGE),
+        ("--help", []) => print(USAGE),
         _ => complain(USAGE),
     }
 }
