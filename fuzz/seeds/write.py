@@ -219,13 +219,13 @@ here = pathlib.Path(__file__).parent
 for name, seed in RECORDS.items():
     (here / "record" / name).write_bytes(seed)
 # As another writer writes it.
-parquet = here / "../../lab/cli/tests/reading/files/tiny.parquet"
+parquet = here / "../../lab/cli/tests/cli/reading/files/tiny.parquet"
 (here / "record" / "parquet").write_bytes(b"\0" + parquet.read_bytes())
-hdf5 = here / "../../lab/cli/tests/reading/files/tiny_7_3.mat"
+hdf5 = here / "../../lab/cli/tests/cli/reading/files/tiny_7_3.mat"
 (here / "record" / "mat_7_3").write_bytes(b"\0" + hdf5.read_bytes())
-cells = here / "../../lab/cli/tests/reading/files/cells_7_3.mat"
+cells = here / "../../lab/cli/tests/cli/reading/files/cells_7_3.mat"
 for name in ("tiny.xlsx", "tiny.npy"):
-    own = here / "../../lab/cli/tests/reading/files" / name
+    own = here / "../../lab/cli/tests/cli/reading/files" / name
     (here / "record" / name.replace("tiny.", "")).write_bytes(b"\0" + own.read_bytes())
 (here / "record" / "mat_7_3_cells").write_bytes(b"\0" + cells.read_bytes())
 for make in (pid, adaptive, compensator, hysteresis, model, inverse):

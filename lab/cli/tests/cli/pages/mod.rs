@@ -1,0 +1,156 @@
+//! The generated pages of `docs/reference`: the commands and the glossary from what the program
+//! prints, the effects from the catalogue, the thresholds from their constants, the findings from one
+//! example each.
+//! `BOWDEN_WRITE_PAGES=1 cargo test -p bowden-cli --test cli pages` writes them.
+
+mod findings;
+
+use bowden::effect::{Dimension, CATALOGUE};
+use bowden_lab::model::mechanism::Mechanism;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// The subcommands, in the order of `bowden --help`.
+const SUBCOMMANDS: [&str; 11] = [
+    "identify",
+    "validate",
+    "design",
+    "compare",
+    "certify",
+    "power",
+    "plan",
+    "export",
+    "generate",
+    "completions",
+    "man",
+];
+
+/// What `bowden help …` prints, without blanks at the ends of lines.
+fn help(topic: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_bowden"))
+        .arg("help")
+        .args(topic)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = text.trim().lines().map(str::trim_end).collect();
+    lines.join("\n")
+}
+
+fn check(name: &str, page: &str) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs/reference")
+        .join(name);
+    if std::env::var_os("BOWDEN_WRITE_PAGES").is_some() {
+        std::fs::write(&path, page).unwrap();
+    }
+    let kept = std::fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(
+        kept, page,
+        "if this is meant: BOWDEN_WRITE_PAGES=1 cargo test -p bowden-cli --test cli pages"
+    );
+}
+
+#[test]
+fn the_glossary_is_what_the_program_prints() {
+    let page = format!(
+        "# Glossary\n\nThe output of `bowden help terms`. What to do after a verdict: \
+         [verdicts](../howto/verdicts.md).\n\n```text\n{}\n```\n",
+        help(&["terms"])
+    );
+    check("glossary.md", &page);
+}
+
+#[test]
+fn the_page_of_the_commands_is_what_the_program_prints() {
+    let mut page =
+        String::from("# Commands\n\nThe output of `bowden help` and of `bowden help COMMAND`.\n");
+    let mut add = |title: &str, topic: &[&str]| {
+        write!(page, "\n## {title}\n\n```text\n{}\n```\n", help(topic)).unwrap();
+    };
+    add("bowden", &[]);
+    for name in SUBCOMMANDS {
+        add(&format!("bowden {name}"), &[name]);
+    }
+    check("cli.md", &page);
+}
+
+#[test]
+fn the_page_of_the_findings_has_each_of_them() {
+    check("findings.md", &findings::page());
+}
+
+/// The unit of a regressor, in those of the record.
+fn unit(of: Dimension) -> String {
+    let parts = [
+        ("channel unit", of.channel),
+        ("load unit", of.load),
+        ("output unit", of.output),
+        ("input unit", of.input),
+        ("s", of.time),
+    ];
+    let parts = parts.into_iter().filter(|(_, exponent)| *exponent != 0);
+    let parts = parts.map(|(name, exponent)| match exponent {
+        1 => name.to_owned(),
+        n => format!("{name}^{n}"),
+    });
+    let all = parts.collect::<Vec<_>>().join(" · ");
+    if all.is_empty() {
+        "1".to_owned()
+    } else {
+        all
+    }
+}
+
+#[test]
+fn the_page_of_the_effects_is_the_catalogue() {
+    let mut page = String::from(
+        "# Effects\n\nThe effects that a model can have and that `bowden identify` looks for. x, v and \
+         a are position, velocity and acceleration of the effect's channel.\n\n\
+         | effect | family | mechanism | regressor | unit | memory |\n|---|---|---|---|---|---|\n",
+    );
+    for info in CATALOGUE {
+        writeln!(
+            page,
+            "| `{}` | {} | {} | {} | {} | {} |",
+            info.name,
+            info.family,
+            Mechanism::of(info.name, info.family).name(),
+            info.formula.replace('|', "\\|"),
+            unit(info.dimension),
+            if info.memory { "yes" } else { "" },
+        )
+        .unwrap();
+    }
+    check("effects.md", &page);
+}
+
+/// The constants of the search, with their documentation.
+const POLICY: &str = include_str!("../../../../identify/src/search/policy.rs");
+
+#[test]
+fn the_page_of_the_thresholds_is_their_constants() {
+    let mut page = String::from(
+        "# Thresholds of the search\n\nThe constants in `lab/identify/src/search/policy.rs`. The \
+         planted records are those of `operating_characteristics`. SSE is the squared error on \
+         the fit segment.\n\n| constant | value | meaning and reason |\n|---|---|---|\n",
+    );
+    let mut words: Vec<&str> = Vec::new();
+    for line in POLICY.lines() {
+        if let Some(text) = line.strip_prefix("///") {
+            words.push(text.trim());
+        } else if let Some(rest) = line.strip_prefix("pub const ") {
+            let (name, value) = rest.split_once(": ").unwrap();
+            let value = value.split_once(" = ").unwrap().1.trim_end_matches(';');
+            let all = words.drain(..).filter(|line| !line.is_empty());
+            let all = all.collect::<Vec<_>>().join(" ");
+            let value = value.replace("core::f64::consts::LN_2", "ln 2");
+            writeln!(page, "| `{name}` | {value} | {all} |").unwrap();
+        } else {
+            words.clear();
+        }
+    }
+    check("thresholds.md", &page);
+}

@@ -1,0 +1,23 @@
+//! The closing sentence on files that a newcomer has: the wrong cable, the wrong column, a
+//! plant that integrates, a stretch that is like no other, a model that firmware spoils.
+//!
+//! The records are made here or by the program's own generator, and altered here; neither
+//! shares code with the fit.
+
+mod apart;
+mod ballast;
+mod beyond;
+mod carries_over;
+mod changed;
+mod channels;
+mod checked;
+mod coarse;
+mod compare;
+mod files;
+mod gap;
+mod motions;
+mod no_model;
+mod on_a_chip;
+mod otherwise;
+mod reading;
+mod table;

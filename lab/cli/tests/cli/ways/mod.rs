@@ -1,0 +1,5 @@
+//! New ways in and out from outside: limited rounds, traces, models on the next record.
+
+mod program;
+mod refused;
+mod rig;
