@@ -1,8 +1,7 @@
 //! What `bowden identify --json` says of its own cost.
 
-
+use crate::shell::{bowden, Folder};
 use serde_json::Value;
-use crate::shell::bowden;
 use std::time::Instant;
 
 /// The part `cost`, and the wall time of the whole process \[s\].
@@ -63,8 +62,8 @@ fn the_counts_are_of_what_they_say() {
 
 #[test]
 fn the_counts_are_those_of_the_answer_whatever_is_drawn_of_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    let folder = Folder::new();
+    let name = |file: &str| folder.path(file);
     let (trace, page) = (name("trace.csv"), name("page.html"));
     let quick = ["identify", "--max-terms", "0"];
     let drawn = [&quick[..], &["--trace", &trace, "--report", &page]].concat();

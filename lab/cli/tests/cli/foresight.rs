@@ -1,10 +1,9 @@
 //! The two commands from outside.
 
+use crate::shell::{args, bowden, bowden_on, Folder};
 
-use crate::shell::{bowden, bowden_on};
-
-fn made(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
-    let path = folder.path().join(name).display().to_string();
+fn made(folder: &Folder, name: &str, arguments: &[&str]) -> String {
+    let path = folder.path(name);
     let mut all = vec!["generate", "--mode", "displacement", "--out", &path];
     all.extend(arguments);
     assert!(bowden(&all).status.success());
@@ -14,7 +13,7 @@ fn made(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
 fn the_power_of_a_record_is_the_same_bytes_for_any_number_of_threads() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let path = made(&folder, "r.csv", &["--seconds", "10", "--seed", "5"]);
     let ask = |threads: &str| {
         let all = [
@@ -44,7 +43,7 @@ fn the_power_of_a_record_is_the_same_bytes_for_any_number_of_threads() {
 
 #[test]
 fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let path = made(
         &folder,
         "c.csv",
@@ -65,14 +64,7 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
     let other = made(
         &folder,
         "d.csv",
-        &[
-            "--seed",
-            "1",
-            "--effect",
-            "stiffness-cubic:0.6",
-            "--seconds",
-            "10",
-        ],
+        &args("--seed 1 --effect stiffness-cubic:0.6 --seconds 10"),
     );
     let joint = bowden(&["plan", &path, &other]);
     assert!(joint.status.success(), "{joint:?}");
@@ -82,11 +74,11 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
         "{words}"
     );
     // A pattern leaves out what the program wrote beside a model, and says so.
-    let model = folder.path().join("c.toml").display().to_string();
+    let model = folder.path("c.toml");
     assert!(bowden(&["identify", &path, "--model-out", &model])
         .status
         .success());
-    let pattern = folder.path().join("c*.csv").display().to_string();
+    let pattern = folder.path("c*.csv");
     let matched = bowden(&["plan", &pattern]);
     assert_eq!(matched.stdout, csv.as_bytes());
     let words = String::from_utf8(matched.stderr).unwrap();
@@ -94,12 +86,12 @@ fn a_plan_is_a_table_of_motion_and_names_what_it_is_for() {
         words.contains("1 test vector of --model-out excluded"),
         "{words}"
     );
-    let out = folder.path().join("plan.csv").display().to_string();
+    let out = folder.path("plan.csv");
     assert!(bowden_on("1", &["plan", &path, "--out", &out])
         .status
         .success());
     assert_eq!(std::fs::read_to_string(&out).unwrap(), csv);
-    let page = folder.path().join("page.html").display().to_string();
+    let page = folder.path("page.html");
     let closed = bowden(&["identify", &path, "--report", &page]).stdout;
     assert!(String::from_utf8(closed).unwrap().contains("to separate: "));
     // The page names what the motion separates, which may be less than all rivals.
@@ -121,7 +113,7 @@ fn report(path: &str) -> serde_json::Value {
 /// Presliding is backlash of the opposite sign: whichever is named, it is one effect, and a note says so.
 #[test]
 fn one_function_under_two_names_is_one_term_with_a_note() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let records = [
         ("presliding", ["--seed", "325", "--effect", "backlash"]),
         ("backlash", ["--seed", "5001", "--effect", "backlash:3"]),
@@ -148,7 +140,7 @@ fn one_function_under_two_names_is_one_term_with_a_note() {
 /// A cubic stiffness and a dead zone are two functions, which this motion does not separate.
 #[test]
 fn another_function_that_fits_as_well_is_an_alternative() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let recipe = ["--seed", "1", "--effect", "stiffness-cubic:0.6"];
     let report = report(&made(&folder, "c.csv", &recipe));
     assert_eq!(report["verdict"], "ambiguous");
@@ -163,7 +155,7 @@ fn another_function_that_fits_as_well_is_an_alternative() {
 
 #[test]
 fn what_no_motion_makes_known_is_said_and_not_called_settled() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let path = made(&folder, "b.csv", &["--seed", "325", "--effect", "backlash"]);
     let declared = ["--baseline", "bouc-wen"];
     let plan = bowden(&[&["plan", &path], &declared[..]].concat());
@@ -178,7 +170,7 @@ fn what_no_motion_makes_known_is_said_and_not_called_settled() {
     );
     assert!(!told.contains("was not written"), "{told}");
     // A script that asked for a file learns that there is none.
-    let out = folder.path().join("plan.csv").display().to_string();
+    let out = folder.path("plan.csv");
     let plan = bowden(&[&["plan", &path, "--out", &out], &declared[..]].concat());
     assert_eq!(plan.status.code(), Some(1));
     assert!(plan.stdout.is_empty() && !std::path::Path::new(&out).exists());
@@ -187,7 +179,7 @@ fn what_no_motion_makes_known_is_said_and_not_called_settled() {
 }
 
 /// A cable of four Maxwell-slip elements: what presliding and backlash are made of, four times over.
-fn of_slipping_elements(folder: &tempfile::TempDir) -> String {
+fn of_slipping_elements(folder: &Folder) -> String {
     let elements = [(0.25, 0.6), (0.2, 1.5), (0.1, 3.0), (0.05, 6.0)];
     let mut state = 7_u64;
     let mut unit = || {
@@ -211,7 +203,7 @@ fn of_slipping_elements(folder: &tempfile::TempDir) -> String {
         let output = 0.88 * x - friction + 0.4 + 0.1 * unit();
         csv += &format!("{t},{:.5},{output:.5}\n", x + 0.035 * unit());
     }
-    let path = folder.path().join("slip.csv").display().to_string();
+    let path = folder.path("slip.csv");
     std::fs::write(&path, csv).unwrap();
     path
 }
@@ -219,7 +211,7 @@ fn of_slipping_elements(folder: &tempfile::TempDir) -> String {
 /// Each of them is named once, and none is to be separated from its own other name.
 #[test]
 fn slipping_elements_have_no_alternatives_and_one_note() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let path = of_slipping_elements(&folder);
     let closed = String::from_utf8(bowden(&["identify", &path]).stdout).unwrap();
     let note = "Presliding and backlash are one function";
@@ -235,14 +227,14 @@ fn slipping_elements_have_no_alternatives_and_one_note() {
 
 #[test]
 fn bad_use_gives_one_line_and_status_two_and_leaves_nothing_behind() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let path = made(
         &folder,
         "r.csv",
         &["--seconds", "10", "--effect", "viscous:0.6"],
     );
-    let nowhere = folder.path().join("none/plan.csv").display().to_string();
-    let absent = folder.path().join("absent.csv").display().to_string();
+    let nowhere = folder.path("none/plan.csv");
+    let absent = folder.path("absent.csv");
     let cases: [&[&str]; 6] = [
         &["power", &path, "--effects", "nonsense"],
         &["power", &path, "--trials", "1"],
@@ -261,5 +253,5 @@ fn bad_use_gives_one_line_and_status_two_and_leaves_nothing_behind() {
             "{line}"
         );
     }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    assert_eq!(std::fs::read_dir(folder.root()).unwrap().count(), 1);
 }

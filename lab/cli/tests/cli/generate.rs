@@ -1,20 +1,13 @@
 //! `bowden generate`, and the name that it had before.
 
-
-use crate::shell::said;
+use crate::shell::{args, said};
 
 #[test]
 fn the_old_name_record_gives_the_same_bytes() {
     let made = |name: &str| {
-        said(&[
-            name,
-            "--effect",
-            "viscous:2",
-            "--seed",
-            "3",
-            "--seconds",
-            "1",
-        ])
+        said(&args(&format!(
+            "{name} --effect viscous:2 --seed 3 --seconds 1"
+        )))
     };
     let generated = made("generate");
     // A header and a thousand samples.

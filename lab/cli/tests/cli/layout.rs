@@ -1,5 +1,6 @@
 //! The text of the commands on a terminal, at 80 and at 120 columns.
 
+use crate::shell::Folder;
 use bowden_cli::view::{certificates, compare, design, plan_text, power_text, proof};
 use bowden_cli::view::{text, Report, Width};
 use bowden_lab::facts::{
@@ -116,10 +117,10 @@ fn the_text_of_compare_is_the_golden_one() {
     assert!(plain.contains("Smallest error without a plant model: matched-pi"));
     assert!(compare::text(&paper, Width::of(80), true).contains("Transient"));
 
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let (model, gains) = (
-        folder.path().join("model.toml"),
-        folder.path().join("gains.toml"),
+        folder.root().join("model.toml"),
+        folder.root().join("gains.toml"),
     );
     std::fs::write(&model, SOFT).unwrap();
     let file = designed(SOFT, 0.006).gains.toml().unwrap();
@@ -249,9 +250,9 @@ fn the_readme_shows_lines_of_it() {
 /// `bowden identify --plot docs/pictures/NAME.svg --figure NAME` draws them.
 #[test]
 fn the_pictures_of_the_readme_are_what_the_program_draws() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     for figure in ["loop", "residual"] {
-        let drawn = folder.path().join(format!("{figure}.svg"));
+        let drawn = folder.root().join(format!("{figure}.svg"));
         let status = std::process::Command::new(env!("CARGO_BIN_EXE_bowden"))
             .args(["identify", "--figure", figure, "--plot"])
             .arg(&drawn)

@@ -1,11 +1,9 @@
 //! The program from outside: exit status, what goes to which stream, files written.
 
+use crate::shell::{args, bowden, bowden_on, refused, said, text, without_seconds, Folder};
 
-use crate::shell::{bowden, bowden_on, refused, text, without_seconds};
-use std::collections::BTreeSet;
-
-fn record(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> String {
-    let path = folder.path().join(name).display().to_string();
+fn record(folder: &Folder, name: &str, arguments: &[&str]) -> String {
+    let path = folder.path(name);
     let mut all = vec!["generate", "--out", &path];
     all.extend(arguments);
     assert!(bowden(&all).status.success());
@@ -17,26 +15,15 @@ fn without_arguments_the_embedded_record_gives_a_ledger_without_colours() {
     let output = bowden(&[]);
     assert_eq!(output.status.code(), Some(0));
     let ledger = text(&output.stdout);
-    for word in [
-        "MISSING: friction over the velocity of phi_p",
-        "viscous@phi_p -0.2637",
-        "bouc-wen (baseline)",
-        "held-out",
-        "vs noise",
-        "The residual is the sensor's noise.",
-    ] {
-        assert!(ledger.contains(word), "{word} is not in\n{ledger}");
-    }
-    assert!(
-        !ledger.contains('\u{1b}'),
-        "escape codes without a terminal"
-    );
+    // Its lines are those of the golden files.
+    assert!(ledger.contains("viscous@phi_p -0.2637"), "{ledger}");
+    assert!(!ledger.contains('\u{1b}'), "escape codes in a pipe");
     assert!(output.stderr.is_empty());
 }
 
 #[test]
 fn the_embedded_record_is_the_one_that_the_named_command_writes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let path = record(
         &folder,
         "r.csv",
@@ -51,203 +38,33 @@ fn the_embedded_record_is_the_one_that_the_named_command_writes() {
 }
 
 #[test]
-fn the_same_record_gives_the_same_bytes_whatever_the_number_of_threads() {
-    let folder = tempfile::tempdir().unwrap();
+fn the_same_command_prints_the_same_bytes_whatever_the_number_of_threads() {
+    let folder = Folder::new();
     let path = record(
         &folder,
         "r.csv",
-        &[
-            "--mode",
-            "displacement",
-            "--effect",
-            "stribeck",
-            "--seed",
-            "3",
-        ],
+        &args("--mode displacement --effect stribeck --seed 3"),
     );
-    let run = |threads: &str| bowden_on(threads, &["identify", &path, "--json"]).stdout;
-    let first = without_seconds(&run("1"));
-    assert_eq!(first, without_seconds(&run("1")));
-    assert_eq!(first, without_seconds(&run("3")));
-}
-
-/// The keys of each object of `identify --json` on the embedded record.
-const LAYOUT: &[(&str, &[&str])] = &[
-    (
-        "",
-        &[
-            "schema",
-            "record",
-            "baseline",
-            "lacks",
-            "complete",
-            "terms",
-            "undelivered",
-            "final",
-            "rejected",
-            "defects",
-            "notes",
-            "redundant",
-            "unknown",
-            "noise_floor",
-            "stopped_by_max_terms",
-            "stopped_by_time_limit",
-            "undelivered",
-            "output_std",
-            "explains",
-            "verdict",
-            "findings",
-            "summary",
-            "cost",
-        ],
-    ),
-    (
-        "/record",
-        &[
-            "path",
-            "samples",
-            "dropped",
-            "rate_hz",
-            "mode",
-            "cutoff_hz",
-            "blocks",
-        ],
-    ),
-    (
-        "/baseline",
-        &["effects", "parameters", "rmse", "nrmse", "nrmse_raw"],
-    ),
-    (
-        "/lacks/0",
-        &[
-            "mechanism",
-            "channel",
-            "title",
-            "share",
-            "confidence",
-            "alternatives",
-            "curve",
-            "members",
-            "described_by",
-        ],
-    ),
-    ("/complete", &["floors", "at_floor"]),
-    (
-        "/final",
-        &[
-            "effects",
-            "refitted",
-            "parameters",
-            "rmse",
-            "nrmse",
-            "causal_nrmse",
-            "feed_forward",
-            "exported_model",
-        ],
-    ),
-    ("/final/feed_forward", &["invertible", "reason", "nearest"]),
-    (
-        "/final/exported_model",
-        &[
-            "effects",
-            "excluded_terms",
-            "within_inverse",
-            "nrmse",
-            "rates_time_constant_s",
-        ],
-    ),
-    ("/baseline/rmse", &["fit", "selection", "held_out"]),
-    (
-        "/baseline/parameters/0",
-        &[
-            "name",
-            "value",
-            "unit",
-            "ci95",
-            "identified",
-            "not_identified",
-        ],
-    ),
-    (
-        "/terms/0",
-        &[
-            "family",
-            "effect",
-            "channel",
-            "confidence",
-            "coefficients",
-            "p",
-            "explained",
-            "alternatives",
-            "experiment",
-            "rmse_before",
-            "rmse_after",
-            "raises_held_out",
-            "model",
-            "refitted",
-            "nrmse",
-        ],
-    ),
-    (
-        "/terms/0/coefficients/0",
-        &["name", "value", "unit", "ci95"],
-    ),
-    (
-        "/cost",
-        &[
-            "evaluations",
-            "jacobians",
-            "columns_filtered",
-            "searches",
-            "seconds",
-        ],
-    ),
-    (
-        "/cost/seconds",
-        &[
-            "reading",
-            "preparing",
-            "fitting_baseline",
-            "searching",
-            "concluding",
-        ],
-    ),
-];
-
-#[test]
-fn the_json_is_laid_out_as_documented() {
-    let output = bowden(&["identify", "--json"]);
-    assert!(output.stderr.is_empty());
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["schema"], "bowden.identify/1");
-    for (place, names) in LAYOUT {
-        let found = report.pointer(place).unwrap().as_object().unwrap();
-        let found: BTreeSet<&str> = found.keys().map(String::as_str).collect();
-        assert_eq!(found, names.iter().copied().collect(), "at {place:?}");
+    let model = folder.path("m.toml");
+    said(&["identify", "--model-out", &model]);
+    for command in [
+        format!("identify {path} --json"),
+        format!("design {model} --rate 1000 --delay 0.002 --json"),
+        "compare --seconds 9 --seeds 3 --json".to_owned(),
+    ] {
+        let run = |threads: &str| {
+            let json = bowden_on(threads, &args(&command)).stdout;
+            let is_timed = text(&json).contains("\"seconds\":{");
+            if is_timed {
+                without_seconds(&json)
+            } else {
+                text(&json).to_owned()
+            }
+        };
+        let first = run("1");
+        assert_eq!(first, run("1"), "{command}");
+        assert_eq!(first, run("3"), "{command}");
     }
-    // The embedded record has nothing that came near and was turned down.
-    let folder = tempfile::tempdir().unwrap();
-    let coulomb = [
-        "--mode",
-        "displacement",
-        "--effect",
-        "coulomb",
-        "--seed",
-        "2",
-    ];
-    let path = record(&folder, "coulomb.csv", &coulomb);
-    let other = bowden(&["identify", &path, "--json"]);
-    let other: serde_json::Value = serde_json::from_slice(&other.stdout).unwrap();
-    let rejected = other["rejected"][0].as_object().unwrap();
-    let keys: Vec<&str> = rejected.keys().map(String::as_str).collect();
-    assert_eq!(keys, ["channel", "effect", "family", "gate"]);
-    let round = &report["terms"][0];
-    assert_eq!(
-        (round["family"].as_str(), round["channel"].as_str()),
-        (Some("viscous"), Some("phi_p"))
-    );
-    assert!(report["unknown"].is_null());
-    assert!(round["rmse_after"]["held_out"].as_f64() < round["rmse_before"]["held_out"].as_f64());
 }
 
 #[test]
@@ -275,15 +92,15 @@ fn a_search_whose_time_is_over_gives_the_best_so_far_and_says_so() {
 
 #[test]
 fn a_bad_record_or_option_gives_one_line_and_status_two() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let file = |name: &str, bytes: &[u8]| {
-        let path = folder.path().join(name);
+        let path = folder.root().join(name);
         std::fs::write(&path, bytes).unwrap();
         path.display().to_string()
     };
-    let missing = folder.path().join("missing.csv").display().to_string();
+    let missing = folder.path("missing.csv");
     assert!(refused(&["identify", &missing]).contains("missing.csv"));
-    assert!(refused(&["identify", &folder.path().display().to_string()]).contains("bowden: "));
+    assert!(refused(&["identify", &folder.root().display().to_string()]).contains("bowden: "));
     refused(&["identify", &file("empty.csv", b"")]);
     refused(&["identify", &file("binary.csv", &[0, 159, 146, 150, 0, 0])]);
     let text = refused(&["identify", &file("text.csv", b"t,x,f\n0,0,0\n0.1,zero,1\n")]);
@@ -331,20 +148,13 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
 
 #[test]
 fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let record = record(
         &folder,
         "r.csv",
-        &[
-            "--mode",
-            "displacement",
-            "--effect",
-            "drag-quadratic",
-            "--seed",
-            "5",
-        ],
+        &args("--mode displacement --effect drag-quadratic --seed 5"),
     );
-    let path = folder.path().join("model.toml");
+    let path = folder.root().join("model.toml");
     let out = path.display().to_string();
     assert!(bowden(&["identify", &record, "--model-out", &out])
         .status
@@ -367,13 +177,9 @@ fn a_model_file_is_whole_or_absent_and_reads_back_to_the_same_model() {
         .replace("mode =", "mood =");
     assert!(toml::from_str::<bowden_lab::export::ModelFile>(&unknown).is_err());
 
-    let nowhere = folder
-        .path()
-        .join("no-such-folder/model.toml")
-        .display()
-        .to_string();
+    let nowhere = folder.path("no-such-folder/model.toml");
     refused(&["identify", &record, "--model-out", &nowhere]);
-    let left: Vec<_> = std::fs::read_dir(folder.path())
+    let left: Vec<_> = std::fs::read_dir(folder.root())
         .unwrap()
         .map(|e| e.unwrap().file_name())
         .collect();
@@ -419,10 +225,10 @@ fn whatever_is_printed_on_a_full_disk_is_one_line_and_status_two() {
 #[test]
 fn a_path_that_is_no_utf_8_is_read_and_has_the_sign_for_that_in_the_json() {
     use std::os::unix::ffi::OsStrExt as _;
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let plain = record(&folder, "plain.csv", &["--mode", "torque"]);
     let foreign = folder
-        .path()
+        .root()
         .join(std::ffi::OsStr::from_bytes(b"l\xe4uft.csv"));
     std::fs::copy(&plain, &foreign).unwrap();
     let closed = |path: &std::path::Path| {
@@ -450,15 +256,15 @@ fn a_path_that_is_no_utf_8_is_read_and_has_the_sign_for_that_in_the_json() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_page_of_a_record_through_a_pipe_has_the_hash_of_what_came() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let plain = record(&folder, "plain.csv", &["--mode", "torque"]);
     let page = |record: &str, name: &str| {
-        let page = folder.path().join(name).display().to_string();
+        let page = folder.path(name);
         let output = bowden(&["identify", record, "--max-terms", "0", "--report", &page]);
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         std::fs::read_to_string(page).unwrap()
     };
-    let pipe = folder.path().join("pipe.csv").display().to_string();
+    let pipe = folder.path("pipe.csv");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.unwrap().success());
     let content = std::fs::read(&plain).unwrap();

@@ -1,7 +1,6 @@
 //! The commands of the README run as they are, on the records in `examples/data`.
 
-
-use crate::shell::{bowden_in as run, folder_with_examples as folder};
+use crate::shell::{args, bowden_in as run, folder_with_examples as folder};
 
 const README: &str = include_str!("../../../../README.md");
 
@@ -27,19 +26,14 @@ fn every_command_for_a_record_of_ones_own_runs_as_it_stands() {
         println!("{}", String::from_utf8(output.stdout).unwrap());
     }
     for written in ["model.toml", "trace.csv", "model.rs", "try.csv"] {
-        assert!(folder.path().join(written).exists(), "{written}");
+        assert!(folder.root().join(written).exists(), "{written}");
     }
 }
 
 #[test]
 fn the_model_of_the_straight_cable_holds_later_and_not_once_the_cable_is_bent() {
     let folder = folder();
-    let close = [
-        "identify",
-        "examples/data/straight.csv",
-        "--model-out",
-        "m.toml",
-    ];
+    let close = args("identify examples/data/straight.csv --model-out m.toml");
     assert!(run(&folder, &close).status.success());
     let verdict = |record: &str| -> String {
         let output = run(&folder, &["validate", "m.toml", record, "--json"]);

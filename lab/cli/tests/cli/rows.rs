@@ -1,28 +1,27 @@
 //! `bowden identify --glob`: one row a record, read back with another reader than the writer's.
 
-
+use crate::shell::{refused, said, Folder};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row, RowAccessor};
 use serde_json::Value;
-use crate::shell::{refused, said};
 use std::path::Path;
 
 /// Four generated records, and two that cannot be closed: one is cut off within a row, one
 /// has a NaN.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
+fn folder() -> Folder {
+    let folder = Folder::new();
     for seed in 1..=4 {
-        let path = file(folder.path(), &format!("r{seed}.csv"));
+        let path = file(folder.root(), &format!("r{seed}.csv"));
         let seed = seed.to_string();
         let asked = ["--effect", "viscous", "--seconds", "10", "--rate", "400"];
         said(&[&["generate", "--out", &path, "--seed", &seed], &asked[..]].concat());
     }
-    let whole = std::fs::read_to_string(file(folder.path(), "r1.csv")).unwrap();
-    std::fs::write(file(folder.path(), "r5.csv"), &whole[..5000]).unwrap();
+    let whole = std::fs::read_to_string(file(folder.root(), "r1.csv")).unwrap();
+    std::fs::write(file(folder.root(), "r5.csv"), &whole[..5000]).unwrap();
     let mut rows: Vec<String> = whole.lines().map(str::to_owned).collect();
     let (start, _) = rows[99].rsplit_once(',').unwrap();
     rows[99] = format!("{start},NaN");
-    std::fs::write(file(folder.path(), "r6.csv"), rows.join("\n")).unwrap();
+    std::fs::write(file(folder.root(), "r6.csv"), rows.join("\n")).unwrap();
     folder
 }
 
@@ -65,8 +64,8 @@ fn mechanisms(report: &Value) -> Value {
 #[test]
 fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
     let folder = folder();
-    let out = file(folder.path(), "rows.parquet");
-    let pattern = file(folder.path(), "r*.csv");
+    let out = file(folder.root(), "rows.parquet");
+    let pattern = file(folder.root(), "r*.csv");
     let asked = ["--baseline", "bouc-wen", "--cutoff", "6"];
     let glob = [
         "identify",
@@ -85,7 +84,7 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
     let rows = rows_of(&out);
     assert_eq!(rows.len(), 6);
     for (index, row) in rows.iter().enumerate().take(4) {
-        let path = file(folder.path(), &format!("r{}.csv", index + 1));
+        let path = file(folder.root(), &format!("r{}.csv", index + 1));
         let alone = said(&[&["identify", &path, "--json"], &asked[..]].concat());
         let alone: Value = serde_json::from_str(&alone).unwrap();
         let each = |list: &Value, name: &str| -> Value {
@@ -122,7 +121,7 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
     }
     // What `identify` says of them, in its words.
     for (index, line) in [(4, Value::Null), (5, 100.into())] {
-        let path = file(folder.path(), &format!("r{}.csv", index + 1));
+        let path = file(folder.root(), &format!("r{}.csv", index + 1));
         let alone = refused(&["identify", &path]);
         let row = &rows[index];
         assert_eq!(cell(row, "status"), "error");
@@ -151,7 +150,7 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
 #[test]
 fn a_process_that_dies_is_the_row_of_its_record() {
     let folder = folder();
-    let out = file(folder.path(), "rows.parquet");
+    let out = file(folder.root(), "rows.parquet");
     // Without memory for more than the program itself a process is ended by the system.
     let mut limited = std::process::Command::new("sh");
     let script = "ulimit -v 40000; exec \"$0\" \"$@\"";
@@ -163,7 +162,7 @@ fn a_process_that_dies_is_the_row_of_its_record() {
         "--glob",
     ]);
     limited.args([
-        &file(folder.path(), "r[12].csv"),
+        &file(folder.root(), "r[12].csv"),
         "--out",
         &out,
         "--workers",
@@ -188,15 +187,15 @@ fn a_process_that_dies_is_the_row_of_its_record() {
 #[test]
 fn bad_use_of_glob_leaves_the_rows_of_before() {
     let folder = folder();
-    let out = file(folder.path(), "rows.parquet");
+    let out = file(folder.root(), "rows.parquet");
     std::fs::write(&out, "rows of before").unwrap();
-    let none = file(folder.path(), "q*.csv");
+    let none = file(folder.root(), "q*.csv");
     assert_eq!(
         refused(&["identify", "--glob", &none, "--out", &out]),
         format!("bowden: {none}: no file matches this pattern")
     );
-    let pattern = file(folder.path(), "r*.csv");
-    let record = file(folder.path(), "r1.csv");
+    let pattern = file(folder.root(), "r*.csv");
+    let record = file(folder.root(), "r1.csv");
     let line = refused(&["identify", "--glob", &pattern, "--out", &record]);
     assert!(
         line.ends_with(&format!("would overwrite {record}, which is an input")),
@@ -213,10 +212,10 @@ fn bad_use_of_glob_leaves_the_rows_of_before() {
 
 #[test]
 fn an_option_of_glob_without_it_is_refused_and_not_passed_over() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = file(folder.path(), "model.toml");
+    let folder = Folder::new();
+    let out = file(folder.root(), "model.toml");
     // A record that is not there would be complained of first if it were read first.
-    let record = file(folder.path(), "later.csv");
+    let record = file(folder.root(), "later.csv");
     for asked in [
         &["identify"][..],
         &["identify", &record],

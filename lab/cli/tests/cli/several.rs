@@ -1,56 +1,34 @@
 //! The program from outside: one line and status 2, or a report by file.
 
+use crate::shell::{
+    args, bowden, bowden_on, example, refused, said, text, without_seconds, Folder,
+};
 
-use crate::shell::{bowden, bowden_on, example, refused, said, text, without_seconds};
+fn record(folder: &Folder, name: &str, more: &[&str]) -> String {
+    folder.record(
+        name,
+        &[&["--seconds", "15", "--rate", "500"], more].concat(),
+    )
+}
 
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> String {
-        self.0.path().join(name).display().to_string()
-    }
-
-    fn record(&self, name: &str, arguments: &[&str]) -> String {
-        let path = self.path(name);
-        let mut all = vec![
-            "generate",
-            "--out",
-            &path,
-            "--seconds",
-            "15",
-            "--rate",
-            "500",
-        ];
-        all.extend(arguments);
-        assert!(bowden(&all).status.success());
-        path
-    }
-
-    /// A copy of a record with its header changed.
-    fn renamed(&self, from: &str, name: &str, change: impl Fn(&str) -> String) -> String {
-        let csv = std::fs::read_to_string(from).unwrap();
-        let (header, rows) = csv.split_once('\n').unwrap();
-        let path = self.path(name);
-        std::fs::write(&path, format!("{}\n{rows}", change(header))).unwrap();
-        path
-    }
+/// A copy of a record with its header changed.
+fn renamed(folder: &Folder, from: &str, name: &str, change: impl Fn(&str) -> String) -> String {
+    let csv = std::fs::read_to_string(from).unwrap();
+    let (header, rows) = csv.split_once('\n').unwrap();
+    folder.file(name, format!("{}\n{rows}", change(header)))
 }
 
 #[test]
 fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let folder = Folder::new();
-    let a = folder.record("a.csv", &["--seed", "1"]);
-    let x = folder.record("x.csv", &["--mode", "displacement"]);
+    let a = record(&folder, "a.csv", &["--seed", "1"]);
+    let x = record(&folder, "x.csv", &["--mode", "displacement"]);
     let line = refused(&["identify", &a, &x]);
     assert!(
         line.contains("x.csv: column `x`: ") && line.contains("the mode must be torque"),
         "{line}"
     );
-    let fewer = folder.renamed(&a, "fewer.csv", |h| h.replace("phi_d", "other"));
+    let fewer = renamed(&folder, &a, "fewer.csv", |h| h.replace("phi_d", "other"));
     let line = refused(&["identify", &a, &fewer]);
     assert!(
         line.contains("fewer.csv: column `phi_d`: no such channel"),
@@ -61,7 +39,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
         line.contains("a.csv: column `phi_d`: ") && line.contains("fewer.csv has no such channel"),
         "{line}"
     );
-    let other = folder.renamed(&a, "unit.csv", |h| h.replacen("N·m", "V", 1));
+    let other = renamed(&folder, &a, "unit.csv", |h| h.replacen("N·m", "V", 1));
     let line = refused(&["identify", &a, &other]);
     assert!(
         line.contains("unit.csv: column `tau_i`: has unit V; it must have unit N·m"),
@@ -70,21 +48,15 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let line = refused(&["identify", &a, &folder.path("none.csv")]);
     assert!(line.contains("none.csv"), "{line}");
     assert!(refused(&["identify", &a, &a]).contains("given twice"));
-    let copy = folder.renamed(&a, "copy.csv", str::to_owned);
+    let copy = renamed(&folder, &a, "copy.csv", str::to_owned);
     let line = refused(&["identify", &a, &copy]);
     assert!(line.contains("copy.csv: the same samples as in"), "{line}");
     let line = refused(&["identify", &a, "--per-file", "gains"]);
     assert!(line.contains("more than one file"), "{line}");
-    let b = folder.record("b.csv", &["--seed", "2"]);
-    let line = refused(&[
-        "identify",
-        &a,
-        &b,
-        "--per-file",
-        "gains",
-        "--baseline",
-        "viscous",
-    ]);
+    let b = record(&folder, "b.csv", &["--seed", "2"]);
+    let line = refused(&args(&format!(
+        "identify {a} {b} --per-file gains --baseline viscous"
+    )));
     assert!(line.contains("bouc-wen"), "{line}");
 }
 
@@ -92,7 +64,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
 #[test]
 fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_so() {
     let folder = Folder::new();
-    let a = folder.record("a.csv", &["--seed", "1"]);
+    let a = record(&folder, "a.csv", &["--seed", "1"]);
     let (model, vector) = (folder.path("a.toml"), folder.path("a.vector.csv"));
     let quick = ["--max-terms", "0"];
     let written = bowden(&[&["identify", &a, "--model-out", &model], &quick[..]].concat());
@@ -169,8 +141,8 @@ fn more_files_than_can_be_fitted_together_are_refused_before_any_is_read() {
 #[ignore = "slow: bash .ci/run identification"]
 fn a_file_in_other_units_of_the_same_kind_is_converted() {
     let folder = Folder::new();
-    let a = folder.record("a.csv", &["--seed", "1"]);
-    let b = folder.record("b.csv", &["--seed", "2"]);
+    let a = record(&folder, "a.csv", &["--seed", "1"]);
+    let b = record(&folder, "b.csv", &["--seed", "2"]);
     let csv = std::fs::read_to_string(&b).unwrap();
     let (header, rows) = csv.split_once('\n').unwrap();
     let mut converted = header.replacen("N·m", "mN·m", 1) + "\n";
@@ -204,7 +176,7 @@ fn the_report_says_what_each_file_supports_alone() {
 #[ignore = "slow: bash .ci/run identification"]
 fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
-    let name = |seed: &str| folder.record(&format!("{seed}.csv"), &["--seed", seed]);
+    let name = |seed: &str| record(&folder, &format!("{seed}.csv"), &["--seed", seed]);
     let (a, b, c) = (name("1"), name("2"), name("3"));
     let arguments = ["identify", &a, &b, &c, "--json"];
     let first = bowden_on("1", &arguments);
@@ -238,18 +210,12 @@ fn three_files_are_reported_one_by_one_and_the_same_on_any_number_of_threads() {
 #[ignore = "slow: bash .ci/run identification"]
 fn with_gains_of_their_own_each_file_gets_a_model_file() {
     let folder = Folder::new();
-    let a = folder.record("a.csv", &["--seed", "1"]);
-    let b = folder.record("b.csv", &["--seed", "2"]);
+    let a = record(&folder, "a.csv", &["--seed", "1"]);
+    let b = record(&folder, "b.csv", &["--seed", "2"]);
     let out = folder.path("model.toml");
-    let ran = bowden(&[
-        "identify",
-        &a,
-        &b,
-        "--per-file",
-        "gains",
-        "--model-out",
-        &out,
-    ]);
+    let ran = bowden(&args(&format!(
+        "identify {a} {b} --per-file gains --model-out {out}"
+    )));
     assert_eq!(ran.status.code(), Some(0), "{}", text(&ran.stderr));
     assert!(text(&ran.stdout).contains("gains by file"));
     assert!(!std::path::Path::new(&out).exists());

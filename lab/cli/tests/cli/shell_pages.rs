@@ -1,7 +1,6 @@
 //! Completions and manual pages are made of the commands that the program has.
 
-
-use crate::shell::{bowden, refused, said, text};
+use crate::shell::{bowden, refused, said, text, Folder};
 use std::process::{Command, Stdio};
 
 /// What `bowden --help` lists under Commands.
@@ -74,10 +73,10 @@ fn bash_completes_a_subcommand() {
 
 #[test]
 fn the_manual_has_a_page_of_each_subcommand_with_all_its_options() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().to_str().unwrap();
+    let folder = Folder::new();
+    let path = folder.root().to_str().unwrap();
     assert_eq!(said(&["man", "--out", path]), "");
-    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let read = |name: &str| std::fs::read_to_string(folder.root().join(name)).unwrap();
     let program = read("bowden.1");
     assert_eq!(program, said(&["man"]));
     assert!(program.contains(".TH bowden 1"), "{program}");
@@ -99,8 +98,8 @@ fn what_is_no_shell_no_subcommand_or_no_folder_is_refused() {
     assert_eq!(shell.status.code(), Some(2));
     assert!(text(&shell.stderr).contains("'cmd'"), "{shell:?}");
     assert!(refused(&["man", "clsoe"]).contains("clsoe"));
-    let folder = tempfile::tempdir().unwrap();
-    let missing = folder.path().join("missing");
+    let folder = Folder::new();
+    let missing = folder.root().join("missing");
     let line = refused(&["man", "--out", missing.to_str().unwrap()]);
     assert!(line.contains("no such folder"), "{line}");
 }

@@ -1,6 +1,5 @@
 //! The commands of the tutorials run as they are written, on the records in `examples/data`.
 
-
 use crate::shell::{bowden_in, folder_with_examples, said};
 
 const FIRST: &str = include_str!("../../../../docs/tutorials/1-first-identification.md");
@@ -57,7 +56,7 @@ fn run(page: &'static str, written: &[&str]) {
     // Every page has at least four lines for the program: a page whose blocks are not found fails.
     assert!(ran >= 4, "{ran}");
     for file in written {
-        assert!(folder.path().join(file).exists(), "{file}");
+        assert!(folder.root().join(file).exists(), "{file}");
     }
 }
 

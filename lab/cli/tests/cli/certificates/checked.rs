@@ -1,6 +1,6 @@
 //! A checker in another language, in exact fractions: `check.py`.
 
-use super::example;
+use crate::shell::example;
 use bowden_trials::proof::{parse, Proof};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -8,7 +8,10 @@ use std::process::{Command, Stdio};
 
 /// What the checker says of certificates, a line each; `None` without Python.
 fn checked(certificates: &[Proof]) -> Option<Vec<String>> {
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/certificates/check.py");
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/cli/certificates/check.py"
+    );
     let child = Command::new("python3")
         .arg(script)
         .stdin(Stdio::piped())

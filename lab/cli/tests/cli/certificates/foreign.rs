@@ -1,7 +1,6 @@
 //! What `--coq` and `--gappa` write, checked by Coq and by Gappa, where they are there.
 
-use super::example;
-use crate::shell::{bowden, refused, said};
+use crate::shell::{bowden, example, refused, said, Folder};
 use std::path::Path;
 use std::process::Command;
 
@@ -57,9 +56,9 @@ const CASES: [(&str, &str); 3] = [
 
 #[test]
 fn gappa_takes_the_roundings_and_refuses_smaller_ones() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     for (name, float) in CASES {
-        let (_, script) = written(folder.path(), name, float);
+        let (_, script) = written(folder.root(), name, float);
         if takes("gappa", &[], &script) == Some(false) {
             panic!("gappa refuses {script}");
         }
@@ -73,53 +72,15 @@ fn gappa_takes_the_roundings_and_refuses_smaller_ones() {
     }
 }
 
-/// The box a tenth smaller, a disturbance that is greater than stated, a bound of what is owed
-/// that is too small: each is refused.
-#[test]
-#[ignore = "slow: bash .ci/run conclusions"]
-fn coq_takes_three_certificates_and_refuses_three_that_were_tampered_with() {
-    let folder = tempfile::tempdir().unwrap();
-    for (number, (name, float)) in CASES.into_iter().enumerate() {
-        let (theorem, _) = written(folder.path(), name, float);
-        if takes("coqc", &["-q"], &theorem) == Some(false) {
-            panic!("coqc refuses {theorem}");
-        }
-        let text = std::fs::read_to_string(&theorem).unwrap();
-        let line = |start: &str| {
-            let found = text.lines().find(|l| l.starts_with(start));
-            found.unwrap_or_else(|| panic!("{start}")).to_owned()
-        };
-        let path = match number {
-            0 => {
-                let s = line("Definition S : R := ");
-                tampered(&theorem, &s, &s.replace(":= (", ":= 9/10 * ("))
-            }
-            1 => {
-                let z = line("Definition k : R := ");
-                tampered(&theorem, &z, &z.replace(":= (", ":= 9/10 * ("))
-            }
-            _ => {
-                let carry = line("Hypothesis Hc : ");
-                tampered(
-                    &theorem,
-                    &carry,
-                    &carry.replace("carry <= (", "carry <= 1000 * ("),
-                )
-            }
-        };
-        assert_ne!(takes("coqc", &["-q"], &path), Some(true), "{path}");
-    }
-}
-
 #[test]
 fn what_is_not_proved_is_not_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("refused.v");
+    let folder = Folder::new();
+    let file = folder.root().join("refused.v");
     let path = file.to_str().unwrap();
     let output = bowden(&["certify", &example("gains_refused.toml"), "--coq", path]);
     assert_eq!(output.status.code(), Some(1));
     assert!(!file.exists());
-    let nowhere = folder.path().join("none").join("c.v");
+    let nowhere = folder.root().join("none").join("c.v");
     let line = refused(&[
         "certify",
         &example("gains_own.toml"),

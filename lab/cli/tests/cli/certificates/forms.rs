@@ -1,7 +1,6 @@
 //! What the command prints, and which files it refuses.
 
-use super::example;
-use crate::shell::{bowden, refused, said, text};
+use crate::shell::{bowden, example, refused, said, text, Folder};
 
 #[test]
 fn gains_that_are_proved_are_said_to_be_with_all_nine_inequalities() {
@@ -28,8 +27,8 @@ fn gains_that_are_proved_are_said_to_be_with_all_nine_inequalities() {
 #[test]
 fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("gains.toml");
     let with = |command: &str| {
         let limit = format!("command = {command}");
         std::fs::write(&path, own.replace("command = 60.0", &limit)).unwrap();
@@ -59,7 +58,7 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
         box_of(&report),
         box_of(&said(&["certify", &example("gains_own.toml")]))
     );
-    let coq = folder.path().join("own.v");
+    let coq = folder.root().join("own.v");
     let (path, coq) = (path.to_str().unwrap(), coq.to_str().unwrap());
     let line = refused(&["certify", path, "--coq", coq]);
     assert!(line.contains("theorems/Limit.v"), "{line}");
@@ -89,11 +88,11 @@ fn gains_that_are_not_proved_exit_with_1_and_say_what_would_mend_them() {
 }
 
 /// The gains of `gains_refused.toml` with one line changed.
-fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
+fn changed(from: &str, to: &str) -> (Folder, String) {
     let given = std::fs::read_to_string(example("gains_refused.toml")).unwrap();
     assert!(given.contains(from), "{from}");
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("gains.toml");
     std::fs::write(&path, given.replacen(from, to, 1)).unwrap();
     (folder, path.to_str().unwrap().to_owned())
 }
@@ -133,8 +132,8 @@ fn what_is_said_to_mend_mends() {
 #[test]
 fn what_is_said_to_mend_a_large_k_mends() {
     let given = std::fs::read_to_string(example("gains_refused.toml")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("gains.toml");
     let path = path.to_str().unwrap();
     let certify = |rate: f64, k: f64, epsilon: f64| {
         let own = given
@@ -180,8 +179,8 @@ fn what_is_said_to_mend_a_large_k_mends() {
 #[test]
 fn both_sides_are_rounded_against_the_inequality() {
     let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("gains.toml");
     let certify = |z_limit: f64| {
         let line = own.lines().find(|l| l.starts_with("z_limit = ")).unwrap();
         std::fs::write(&path, own.replace(line, &format!("z_limit = {z_limit:?}"))).unwrap();
@@ -326,17 +325,9 @@ fn a_file_that_is_absent_or_a_gain_beyond_its_float_is_refused() {
 }
 
 #[test]
-fn without_a_file_the_certificates_of_table_2_stay() {
-    let report = said(&["certify"]);
-    assert!(report.starts_with(
-        "bowden certify · the gains of Nguyen et al. (2018) on the reference rig\n\n  BOUND: "
-    ));
-}
-
-#[test]
 fn one_file_for_both_checkers_is_refused_and_what_was_there_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let both = folder.path().join("same.v");
+    let folder = Folder::new();
+    let both = folder.root().join("same.v");
     std::fs::write(&both, "mine").unwrap();
     let own = example("gains_own.toml");
     let path = both.to_str().unwrap();
@@ -346,28 +337,7 @@ fn one_file_for_both_checkers_is_refused_and_what_was_there_stays() {
         "{line}"
     );
     assert_eq!(std::fs::read_to_string(&both).unwrap(), "mine");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-}
-
-#[test]
-fn a_file_of_design_is_named_as_one_where_a_setup_is_expected() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
-    std::fs::write(
-        &path,
-        "schema = \"bowden.gains/1\"\n[design]\nrate = 1000.0\n",
-    )
-    .unwrap();
-    let path = path.to_str().unwrap();
-    let line = refused(&["certify", "--gains", path]);
-    assert!(
-        line.contains("gains.toml: this file was written by `bowden design`"),
-        "{line}"
-    );
-    assert!(line.contains("gains and rig"), "{line}");
-    // Without --gains it is read, and this one is not whole.
-    let line = refused(&["certify", path]);
-    assert!(line.contains("gains.toml:2:1: "), "{line}");
+    assert_eq!(std::fs::read_dir(folder.root()).unwrap().count(), 1);
 }
 
 #[test]
@@ -375,8 +345,8 @@ fn gains_without_their_plant_are_told_what_was_expected() {
     let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
     let (before, rest) = own.split_once("[plant]").unwrap();
     let (_, behind) = rest.split_once("[[regressor]]").unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("bare.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("bare.toml");
     std::fs::write(&path, format!("{before}[[regressor]]{behind}")).unwrap();
     let line = refused(&["certify", path.to_str().unwrap()]);
     let expected = "bare.toml: has no [plant]: add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";

@@ -3,5 +3,3 @@
 mod checked;
 mod foreign;
 mod forms;
-
-use crate::shell::example;

@@ -1,6 +1,7 @@
 //! `bowden certify`: the vacuous bound beside the ones that are not.
 
 use super::{bowden, json};
+use crate::shell::Folder;
 
 #[test]
 fn theorem_1_is_vacuous_and_the_others_are_not() {
@@ -74,9 +75,9 @@ fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_ra
     let own = share(&[]).unwrap();
     // The tests of `bowden_bound` compare such figures with simulated plants.
     assert!((0.1..0.2).contains(&own), "{own}");
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let with = |observer: &str| {
-        let path = folder.path().join("setup.toml");
+        let path = folder.root().join("setup.toml");
         std::fs::write(&path, observer).unwrap();
         share(&["--gains", path.to_str().unwrap()])
     };
@@ -94,8 +95,8 @@ fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_ra
 /// has an effort and an error of another order; the nominal rig has 488 units/s and 0.031 N·m.
 #[test]
 fn the_rig_follows_where_its_data_sheet_is_off_in_the_worst_direction() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("setup.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("setup.toml");
     let stiffness = 1.0 / (1.0 / 1000.0 + 1.0 / 150.0);
     for gain in [0.88, 1.12] {
         let (wn, zeta) = (0.94 * 25.5377_f64, 0.88 * 0.264_315);
@@ -118,9 +119,9 @@ fn the_rig_follows_where_its_data_sheet_is_off_in_the_worst_direction() {
 
 #[test]
 fn what_is_learned_converges_for_a_data_sheet_that_is_off() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let with = |setup: &str| {
-        let path = folder.path().join("setup.toml");
+        let path = folder.root().join("setup.toml");
         std::fs::write(&path, setup).unwrap();
         let report = json(&["certify", "--json", "--gains", path.to_str().unwrap()]);
         assert_eq!(report["learning"]["kind"], "convergence");
@@ -137,7 +138,7 @@ fn what_is_learned_converges_for_a_data_sheet_that_is_off() {
     assert!(tight < own, "{tight} {own}");
     assert_eq!(with("[learning]\nlead = 0.0\nfrequency = 25.0\n"), None);
     assert!(text(&[]).contains("converges for every plant within"));
-    let path = folder.path().join("setup.toml");
+    let path = folder.root().join("setup.toml");
     std::fs::write(&path, "[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
     let tight = text(&["--gains", path.to_str().unwrap()]);
     assert!(
@@ -151,8 +152,8 @@ fn what_is_learned_converges_for_a_data_sheet_that_is_off() {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn the_rig_learns_where_its_data_sheet_is_off_in_the_worst_direction() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("setup.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("setup.toml");
     let stiffness = 1.0 / (1.0 / 1000.0 + 1.0 / 150.0);
     let error = |share: f64, learning: &str| {
         let (wn, zeta) = ((1.0 - 0.5 * share) * 25.5377, (1.0 - share) * 0.264_315);

@@ -1,7 +1,8 @@
 //! The figures of the reference rig, as the program prints them; tolerances are those of
 //! the specification, except where a reason stands beside.
 
-use super::{bowden, json, row};
+use super::{json, row};
+use crate::shell::{args, Folder};
 use serde_json::Value;
 
 fn mean(report: &Value, controller: &str, what: &str) -> f64 {
@@ -45,15 +46,7 @@ fn with_the_experiments_noise_the_measured_errors_are_table_3s() {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn a_moved_conduit_costs_every_law_something_and_the_adaptive_one_little() {
-    let report = json(&[
-        "compare",
-        "--noise",
-        "0.02",
-        "--varying",
-        "--seeds",
-        "3",
-        "--json",
-    ]);
+    let report = json(&args("compare --noise 0.02 --varying --seeds 3 --json"));
     // The independent simulation: 0.560 and 0.053; three slow random paths scatter by 10 %.
     assert!((mean(&report, "pi", "rmse_true") - 0.560).abs() < 0.056);
     assert!((mean(&report, "adaptive", "rmse_true") - 0.053).abs() < 0.010);
@@ -114,41 +107,13 @@ fn the_json_has_the_schema_that_was_promised() {
 }
 
 #[test]
-fn the_table_says_what_is_not_reproduced_and_what_was_calibrated() {
-    let output = bowden(&["compare", "--seconds", "14", "--seeds", "1", "--verbose"]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    for said in [
-        "calibration, not validation",
-        "Two results of the paper are not reproduced: PIV better than PI",
-        "Transient, the first 12 s",
-        "0.5320   0.0134",
-        "matched-pi",
-    ] {
-        assert!(text.contains(said), "{said:?} is missing in\n{text}");
-    }
-}
-
-#[test]
-fn the_same_command_prints_the_same_bytes() {
-    let run = || bowden(&["compare", "--seconds", "9", "--seeds", "3", "--json"]).stdout;
-    assert_eq!(run(), run());
-}
-
-#[test]
 fn a_trace_holds_what_the_figures_show() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("trace.csv");
+    let folder = Folder::new();
+    let path = folder.root().join("trace.csv");
     let path = path.to_str().unwrap();
-    json(&[
-        "compare",
-        "--seconds",
-        "9",
-        "--seeds",
-        "2",
-        "--trace",
-        path,
-        "--json",
-    ]);
+    json(&args(&format!(
+        "compare --seconds 9 --seeds 2 --trace {path} --json"
+    )));
     let text = std::fs::read_to_string(path).unwrap();
     let mut lines = text.lines();
     let header = lines.next().unwrap();
@@ -176,9 +141,7 @@ fn a_trace_holds_what_the_figures_show() {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn on_a_gait_learning_leaves_a_third_of_the_adaptive_laws_error() {
-    let gait = [
-        "compare", "--gait", "--noise", "0.02", "--seeds", "2", "--json",
-    ];
+    let gait = args("compare --gait --noise 0.02 --seeds 2 --json");
     for moved in [&[][..], &["--varying"]] {
         let report = json(&[&gait[..], moved].concat());
         let own = mean(&report, "pi-learning", "rmse_measured");

@@ -1,11 +1,11 @@
 //! The TOML form: what it takes, and that it refuses the rest in one line.
 
-use crate::shell::said;
 use super::{bowden, json, row};
+use crate::shell::{args, said, Folder};
 
-fn file(text: &str) -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
+fn file(text: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    let path = folder.root().join("gains.toml");
     std::fs::write(&path, text).unwrap();
     let path = path.to_str().unwrap().to_owned();
     (folder, path)
@@ -82,16 +82,9 @@ fn what_makes_no_sense_on_the_command_line_is_one_line_too() {
 #[test]
 fn gains_in_the_form_are_the_gains_that_run() {
     let (_folder, path) = file("[pi]\nk_i = 320.0\n\n[rig]\nnoise = 0.02\n");
-    let report = json(&[
-        "compare",
-        "--model",
-        &path,
-        "--seconds",
-        "14",
-        "--seeds",
-        "1",
-        "--json",
-    ]);
+    let report = json(&args(&format!(
+        "compare --model {path} --seconds 14 --seeds 1 --json"
+    )));
     // PI is now the matched PI, on the same seed.
     assert_eq!(
         row(&report, "pi")["rmse_true"],
@@ -102,22 +95,15 @@ fn gains_in_the_form_are_the_gains_that_run() {
 
 #[test]
 fn a_model_that_close_has_written_is_fed_forward() {
-    let folder = tempfile::tempdir().unwrap();
-    let (record, model) = (folder.path().join("r.csv"), folder.path().join("m.toml"));
+    let folder = Folder::new();
+    let (record, model) = (folder.root().join("r.csv"), folder.root().join("m.toml"));
     let (record, model) = (record.to_str().unwrap(), model.to_str().unwrap());
     assert!(bowden(&["generate", "--out", record]).status.success());
     let closed = bowden(&["identify", record, "--model-out", model]);
     assert!(closed.status.success(), "{closed:?}");
-    let report = json(&[
-        "compare",
-        "--model",
-        model,
-        "--seconds",
-        "9",
-        "--seeds",
-        "1",
-        "--json",
-    ]);
+    let report = json(&args(&format!(
+        "compare --model {model} --seconds 9 --seeds 1 --json"
+    )));
     assert_eq!(row(&report, "adaptive-feed-forward")["diverged"], 0);
 }
 

@@ -4,8 +4,8 @@ mod certificates;
 mod figures;
 mod forms;
 
-use serde_json::Value;
 use crate::shell::bowden;
+use serde_json::Value;
 
 fn json(arguments: &[&str]) -> Value {
     let output = bowden(arguments);

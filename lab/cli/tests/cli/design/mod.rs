@@ -4,37 +4,15 @@ mod certified;
 mod short;
 
 use crate::compiler::{compiled_and_run, module};
+use crate::shell::{args, example, refused, said, Folder};
 use serde_json::Value;
-use crate::shell::{bowden, refused, said};
 use std::path::Path;
 
-const RECORD: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../../examples/data/straight.csv"
-);
-
-struct Place(tempfile::TempDir);
-
-impl Place {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> String {
-        self.0.path().join(name).display().to_string()
-    }
-
-    fn write(&self, name: &str, text: &str) -> String {
-        std::fs::write(self.path(name), text).unwrap();
-        self.path(name)
-    }
-
-    /// The model of the straight cable.
-    fn model(&self) -> String {
-        let model = self.path("model.toml");
-        said(&["identify", RECORD, "--model-out", &model]);
-        model
-    }
+/// The model of the straight cable.
+fn straight(folder: &Folder) -> String {
+    let model = folder.path("model.toml");
+    said(&["identify", &example("straight.csv"), "--model-out", &model]);
+    model
 }
 
 fn text(path: &str) -> String {
@@ -72,8 +50,8 @@ fn error(report: &Value, controller: &str) -> f64 {
 
 #[test]
 fn from_a_record_over_its_model_to_gains_that_settle_on_the_rig_of_that_model() {
-    let place = Place::new();
-    let (model, gains) = (place.model(), place.path("gains.toml"));
+    let place = Folder::new();
+    let (model, gains) = (straight(&place), place.path("gains.toml"));
     let asked = [
         "design",
         &model,
@@ -132,86 +110,25 @@ fn from_a_record_over_its_model_to_gains_that_settle_on_the_rig_of_that_model() 
         let value = pi[key].as_float().unwrap();
         pi.insert(key.to_owned(), (0.1 * value).into());
     }
-    let weak = place.write("weak.toml", &toml::to_string(&table).unwrap());
+    let weak = place.file("weak.toml", &toml::to_string(&table).unwrap());
     let weak = error(&compared(&model, &weak), "pi");
     let designed = error(&own, "pi");
     assert!(designed < 0.5 * weak, "{designed} {weak}");
 }
 
 #[test]
-fn the_table_says_whose_rig_gains_and_reference_they_are_and_keeps_the_papers_out() {
-    let place = Place::new();
-    let (model, gains) = (place.model(), place.path("gains.toml"));
-    let told = said(&[
-        "design",
-        &model,
-        "--rate",
-        "500",
-        "--delay",
-        "0.006",
-        "--drive-gain",
-        "0.6",
-        "--verbose",
-        "--out",
-        &gains,
-    ]);
-    for words in [
-        "bowden design · model.toml · 500 Hz",
-        "slope ",
-        "  PI: k_p ",
-        "admissible: ",
-        "A derivative ",
-        "Limits  command ",
-        "slew rate ",
-        "longest dt ",
-        "Adapt ",
-        "Note ",
-    ] {
-        assert!(told.contains(words), "{words} is not in\n{told}");
-    }
-    let fixed = [
-        "compare",
-        "--model",
-        &model,
-        "--gains",
-        &gains,
-        "--noise",
-        "0.02",
-        "--seconds",
-        "8",
-        "--seeds",
-        "1",
-    ];
-    let table = said(&[&fixed, LIGHT.as_slice()].concat());
-    for words in [
-        "simulated reference rig with the transmission of model.toml",
-        "Gains: those of gains.toml.",
-        "No bounds here: `bowden certify GAINS.toml`",
-        "Reference: that of Nguyen et al. (2018), between ",
-        "Rig: inertia 0.002 kg·m², damping 0.5 N·m·s/rad.",
-    ] {
-        assert!(table.contains(words), "{words} is not in\n{table}");
-    }
-    assert!(
-        !table.contains("0.5991") && !table.contains("matched-pi"),
-        "{table}"
-    );
-}
-
-#[test]
 fn gains_rs_compiles_without_warnings_and_is_the_gains() {
-    let place = Place::new();
-    let model = place.model();
+    let place = Folder::new();
+    let model = straight(&place);
     let mut program = String::from("#![deny(warnings)]\n");
     let mut calls = String::new();
     // One sample of delay, and several with the law on every so-many-th.
     for (index, delay) in ["0", "0.0047"].iter().enumerate() {
         let (rust, toml) = (place.path("gains.rs"), place.path(&format!("{index}.toml")));
         for out in [&rust, &toml] {
-            said(&[
-                "design", &model, "--rate", "1000", "--delay", delay, "--noise", "0.013", "--out",
-                out,
-            ]);
+            said(&args(&format!(
+                "design {model} --rate 1000 --delay {delay} --noise 0.013 --out {out}"
+            )));
         }
         let written = text(&rust);
         assert!(written.contains(if index == 0 {
@@ -220,7 +137,7 @@ fn gains_rs_compiles_without_warnings_and_is_the_gains() {
             "one sample in 5"
         }));
         assert!(
-            !written.contains(&place.0.path().display().to_string()),
+            !written.contains(&place.root().display().to_string()),
             "{written}"
         );
         program += &module(&format!("gains_{index}"), &written);
@@ -229,7 +146,7 @@ fn gains_rs_compiles_without_warnings_and_is_the_gains() {
         );
     }
     program += &format!("fn main() {{ assert_eq!(gains_0::RATE, 1000.0);\n{calls} }}\n");
-    let printed = compiled_and_run(&program, place.0.path());
+    let printed = compiled_and_run(&program, place.root());
     let mut lines = printed.lines();
     for index in 0..2 {
         // The same numbers as a firmware with serde reads from the TOML, to the bit.
@@ -244,22 +161,9 @@ fn gains_rs_compiles_without_warnings_and_is_the_gains() {
 }
 
 #[test]
-fn the_same_model_gives_the_same_bytes() {
-    let place = Place::new();
-    let model = place.model();
-    let run = || {
-        bowden(&[
-            "design", &model, "--rate", "1000", "--delay", "0.002", "--json",
-        ])
-        .stdout
-    };
-    assert_eq!(run(), run());
-}
-
-#[test]
 fn bad_use_is_one_line_and_nothing_is_written() {
-    let place = Place::new();
-    let model = place.write(
+    let place = Folder::new();
+    let model = place.file(
         "m.toml",
         "schema = \"bowden.model/1\"\nmode = \"displacement\"\nchannels = []\n[transmission]\ngain = 1.0\nkappa_eta = 0.5\noffset = 0.0\nrho = 1.0\nsigma = 0.6\nn = 1.5\n",
     );
@@ -286,12 +190,12 @@ fn bad_use_is_one_line_and_nothing_is_written() {
     }
     let line = with(&[&good, ["--noise", "-1"].as_slice()].concat());
     assert!(line.contains("--noise -1"), "{line}");
-    place.write(
+    place.file(
         "m.toml",
         "schema = \"bowden.model/1\"\nmode = \"torque\"\ncolour = 1\n",
     );
     assert!(with(&good).contains("m.toml:3:1: `colour`"));
-    place.write("m.toml", "");
+    place.file("m.toml", "");
     assert!(with(&good).contains("is empty"));
 
     // What cannot be written is told before the model is looked at.
@@ -309,24 +213,24 @@ fn bad_use_is_one_line_and_nothing_is_written() {
 
 #[test]
 fn gains_and_rigs_that_make_no_sense_are_one_line() {
-    let place = Place::new();
-    let model = place.model();
+    let place = Folder::new();
+    let model = straight(&place);
     let gains = place.path("gains.toml");
-    said(&[
-        "design", &model, "--rate", "1000", "--delay", "0.006", "--out", &gains,
-    ]);
+    said(&args(&format!(
+        "design {model} --rate 1000 --delay 0.006 --out {gains}"
+    )));
     let compare = |gains: &str, more: &[&str]| -> String {
         refused(
             &[
-                &[
-                    "compare", "--model", &model, "--gains", gains, "--seeds", "1",
-                ],
+                &args(&format!(
+                    "compare --model {model} --gains {gains} --seeds 1"
+                )),
                 more,
             ]
             .concat(),
         )
     };
-    let broken = place.write("broken.toml", &text(&gains).replace("k_p = ", "kp = "));
+    let broken = place.file("broken.toml", &text(&gains).replace("k_p = ", "kp = "));
     let line = compare(&broken, &[]);
     assert!(line.contains("broken.toml:13:1: `kp`"), "{line}");
     assert!(compare(&model, &[]).contains("is a model"));
@@ -338,16 +242,16 @@ fn gains_and_rigs_that_make_no_sense_are_one_line() {
     let other = text(&model)
         .replace("source = \"phi_p\"", "source = \"oil\"")
         .replace("\"phi_p\", ", "\"oil\", ");
-    let other = place.write("oil.toml", &other);
-    let line = refused(&[
-        "compare", "--model", &other, "--spring", "160", "--seeds", "1",
-    ]);
+    let other = place.file("oil.toml", &other);
+    let line = refused(&args(&format!(
+        "compare --model {other} --spring 160 --seeds 1"
+    )));
     assert!(line.contains("oil.toml: the term viscous@oil"), "{line}");
 }
 
 /// Gains of `bowden design` for a drive of 1 N·m per command unit, which is its default.
-fn designed(place: &Place) -> (String, String) {
-    let (model, gains) = (place.model(), place.path("gains.toml"));
+fn designed(place: &Folder) -> (String, String) {
+    let (model, gains) = (straight(place), place.path("gains.toml"));
     let asked = ["--rate", "500", "--delay", "0.006", "--out", &gains];
     said(&[&["design", &model], asked.as_slice()].concat());
     (model, gains)
@@ -355,7 +259,7 @@ fn designed(place: &Place) -> (String, String) {
 
 #[test]
 fn designed_gains_run_on_no_rig_but_that_of_a_model() {
-    let place = Place::new();
+    let place = Folder::new();
     let (_, gains) = designed(&place);
     let line = refused(&["compare", "--gains", &gains, "--seeds", "1"]);
     assert!(
@@ -364,10 +268,10 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
         "{line}"
     );
     // A file of gains and rig has no model of its own.
-    let setup = place.write("setup.toml", "[rig]\nnoise = 0.02\n");
-    let line = refused(&[
-        "compare", "--model", &setup, "--gains", &gains, "--seeds", "1",
-    ]);
+    let setup = place.file("setup.toml", "[rig]\nnoise = 0.02\n");
+    let line = refused(&args(&format!(
+        "compare --model {setup} --gains {gains} --seeds 1"
+    )));
     assert!(
         line.contains("setup.toml: with --gains, give a model written by `bowden identify"),
         "{line}"
@@ -376,7 +280,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
 
 #[test]
 fn the_rig_has_the_drive_gain_that_the_gains_were_designed_for() {
-    let place = Place::new();
+    let place = Folder::new();
     let (model, gains) = designed(&place);
     let fixed = [
         "compare",
@@ -408,26 +312,11 @@ fn the_rig_has_the_drive_gain_that_the_gains_were_designed_for() {
     );
 }
 
-#[test]
-fn one_drive_gain_has_one_explanation() {
-    for (command, default) in [("design", "[default: 1]"), ("compare", "0.6")] {
-        let help = said(&[command, "--help"]);
-        let (_, help) = help.split_once("--drive-gain").unwrap();
-        let words: Vec<&str> = help.split_whitespace().take(40).collect();
-        let help = words.join(" ");
-        assert!(
-            help.contains("Torque at the proximal pulley per command unit [N·m]"),
-            "{help}"
-        );
-        assert!(help.contains(default), "{help}");
-    }
-}
-
 /// In mN·m the limits would be a thousand times too wide, and nothing would look wrong.
 #[test]
 fn a_model_in_another_unit_of_torque_is_refused() {
-    let place = Place::new();
-    let model = text(&place.model());
+    let place = Folder::new();
+    let model = text(&straight(&place));
     let options = ["--rate", "500", "--delay", "0.006"];
     for end in ["input", "output"] {
         let mut table: toml::Table = toml::from_str(&model).unwrap();
@@ -435,11 +324,11 @@ fn a_model_in_another_unit_of_torque_is_refused() {
         assert_eq!(units[end].as_str(), Some("N·m"));
         // The same unit in other letters.
         units.insert(end.to_owned(), "Nm".into());
-        let same = place.write("same.toml", &toml::to_string(&table).unwrap());
+        let same = place.file("same.toml", &toml::to_string(&table).unwrap());
         said(&[["design", &same].as_slice(), &options].concat());
         let units = table["about"]["units"].as_table_mut().unwrap();
         units.insert(end.to_owned(), "mN·m".into());
-        let other = place.write("milli.toml", &toml::to_string(&table).unwrap());
+        let other = place.file("milli.toml", &toml::to_string(&table).unwrap());
         for arguments in [
             [["design", &other].as_slice(), &options].concat(),
             vec!["compare", "--model", &other, "--inertia", "0.002"],
@@ -452,15 +341,4 @@ fn a_model_in_another_unit_of_torque_is_refused() {
             );
         }
     }
-}
-
-#[test]
-fn an_effect_is_hidden_in_the_reference_rig_and_not_in_that_of_a_model() {
-    let place = Place::new();
-    let model = place.model();
-    let line = refused(&["compare", "--effect", "viscous", "--model", &model]);
-    assert!(
-        line.contains("it cannot be combined with a model or with gains"),
-        "{line}"
-    );
 }

@@ -1,21 +1,21 @@
 //! Models that promise nothing of a reference, and gains beside a model that they are not of.
 
-use crate::shell::{bowden, refused, said};
-use super::{text, Place};
+use super::{straight, text};
+use crate::shell::{args, bowden, refused, said, Folder};
 use serde_json::Value;
 
 /// The straight cable's model as if its record had covered these torques alone.
-fn of_a_stroke(place: &Place, stroke: [f64; 2]) -> String {
-    let mut table: toml::Table = toml::from_str(&text(&place.model())).unwrap();
+fn of_a_stroke(place: &Folder, stroke: [f64; 2]) -> String {
+    let mut table: toml::Table = toml::from_str(&text(&straight(place))).unwrap();
     let input = table["about"]["ranges"]["input"].as_table_mut().unwrap();
     input.insert("position".to_owned(), stroke.to_vec().into());
-    place.write("short.toml", &toml::to_string(&table).unwrap())
+    place.file("short.toml", &toml::to_string(&table).unwrap())
 }
 
 /// Up and down the output would have to pass by more than the stroke moves it.
 #[test]
 fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
-    let place = Place::new();
+    let place = Folder::new();
     let model = of_a_stroke(&place, [-0.5, 0.5]);
     let asked = ["--rate", "500", "--delay", "0.006"];
     let report = said(&[["design", &model].as_slice(), &asked].concat());
@@ -68,10 +68,10 @@ acceleration = [-170.0, 170.0]
 /// A cable that can only be pulled: what `certify` will say is said before.
 #[test]
 fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
-    let place = Place::new();
+    let place = Folder::new();
     let gains = place.path("gains.toml");
     let report = |low: f64| {
-        let model = place.write("model.toml", &STIFF.replace("LOW", &format!("{low:?}")));
+        let model = place.file("model.toml", &STIFF.replace("LOW", &format!("{low:?}")));
         let asked = ["--rate", "1000", "--delay", "0.0004", "--out", &gains];
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(report.contains("certificate (peak-"), "{report}");
@@ -101,13 +101,13 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
 /// Small limits and a slow loop: `certify` reads the file, and says what is missing.
 #[test]
 fn gains_that_are_not_proved_are_said_to_be_that_and_certify_names_what_fails() {
-    let place = Place::new();
+    let place = Folder::new();
     let gains = place.path("gains.toml");
     let model = STIFF.replace("kappa_eta = 1.0", "kappa_eta = 0.1");
     for (stroke, above) in [("3.0", "no certificate: "), ("6.0", "certificate (peak-")] {
         let model = model.replace("LOW", &format!("-{stroke}"));
         let model = model.replace("40.0]\nvelocity", &format!("{stroke}]\nvelocity"));
-        let model = place.write("model.toml", &model);
+        let model = place.file("model.toml", &model);
         let asked = ["--rate", "50", "--delay", "0.01", "--out", &gains];
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(report.contains(above), "{report}");
@@ -125,8 +125,8 @@ fn gains_that_are_not_proved_are_said_to_be_that_and_certify_names_what_fails() 
 
 #[test]
 fn a_rate_that_is_too_low_for_the_law_is_named() {
-    let place = Place::new();
-    let model = place.model();
+    let place = Folder::new();
+    let model = straight(&place);
     for asked in [
         ["--rate", "2", "--delay", "0.001"],
         ["--rate", "10", "--delay", "0.3"],
@@ -162,19 +162,10 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
 
 #[test]
 fn gains_of_another_model_are_told() {
-    let place = Place::new();
+    let place = Folder::new();
     let (model, gains) = super::designed(&place);
     let told = |model: &str| {
-        let fixed = [
-            "--seeds",
-            "1",
-            "--seconds",
-            "8",
-            "--inertia",
-            "0.002",
-            "--damping",
-            "0.5",
-        ];
+        let fixed = args("--seeds 1 --seconds 8 --inertia 0.002 --damping 0.5");
         said(
             &[
                 ["compare", "--model", model, "--gains", &gains].as_slice(),
@@ -184,7 +175,7 @@ fn gains_of_another_model_are_told() {
         )
     };
     assert!(!told(&model).contains("designed for model.toml and not"));
-    let other = place.write("other.toml", &text(&model));
+    let other = place.file("other.toml", &text(&model));
     let report = told(&other);
     assert!(
         report.contains("gains.toml, which were designed for model.toml and not for this model"),
@@ -195,7 +186,7 @@ fn gains_of_another_model_are_told() {
 /// A loop that its slew-rate limit rules has an error that says nothing of its gains.
 #[test]
 fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
-    let place = Place::new();
+    let place = Folder::new();
     let (model, gains) = super::designed(&place);
     let fixed = ["--seeds", "1", "--seconds", "9"];
     let light = super::LIGHT.as_slice();
@@ -210,7 +201,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     let limits = limits.as_table_mut().unwrap();
     let designed = limits["slew"].as_float().unwrap();
     limits.insert("slew".to_owned(), (0.02 * designed).into());
-    let slow = place.write("slow.toml", &toml::to_string(&table).unwrap());
+    let slow = place.file("slow.toml", &toml::to_string(&table).unwrap());
     let report = compared(&slow, &[]);
     let told = report
         .lines()
@@ -239,7 +230,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
 /// Certificates without a model's cable would be believed to be of it.
 #[test]
 fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {
-    let place = Place::new();
+    let place = Folder::new();
     let (model, gains) = super::designed(&place);
     let line = refused(&["certify", "--gains", &model]);
     assert!(

@@ -1,7 +1,7 @@
 //! `bowden export --c`: what a firmware engineer in C opens. That it compiles and gives the lab's
 //! numbers is tested in `capi/tests`, where the library is.
 
-use crate::shell::{bowden as run, said};
+use crate::shell::{bowden as run, said, Folder};
 use std::path::Path;
 
 /// The root of the repository.
@@ -23,8 +23,8 @@ fn term(source: &str) -> String {
 
 /// What the program prints of a model of that text.
 fn exported(text: &str) -> (bool, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let model = folder.path().join("0 rig.toml");
+    let folder = Folder::new();
+    let model = folder.root().join("0 rig.toml");
     std::fs::write(&model, text).unwrap();
     let output = run(&["export", "--c", model.to_str().unwrap()]);
     let words = if output.status.success() {
@@ -213,10 +213,10 @@ fn no_macro_of_a_header_is_defined_twice_and_a_name_of_its_own_is_kept() {
 
 #[test]
 fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let text = nasty("\"x\"", &term("x"));
     for name in ["1.h", "_-_.h", "キ.h"] {
-        let words = written(&text, folder.path(), name).unwrap_err();
+        let words = written(&text, folder.root(), name).unwrap_err();
         assert_eq!(words.lines().count(), 1, "{words}");
         assert!(
             words.contains("a letter from a to z or a Greek letter"),
@@ -225,7 +225,7 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
         assert!(words.contains(name), "{words}");
     }
     // It would have the functions of the library, as bowden_model.h would.
-    let words = written(&text, folder.path(), "bowden-model.h").unwrap_err();
+    let words = written(&text, folder.root(), "bowden-model.h").unwrap_err();
     assert!(words.contains("a name of the library"), "{words}");
     for (name, prefix) in [
         ("1a.h", "model_1a"),
@@ -236,7 +236,7 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
         ("_1.キa.h", "model_1__a"),
         ("Rig 1.h", "rig_1"),
     ] {
-        let header = written(&text, folder.path(), name).unwrap();
+        let header = written(&text, folder.root(), name).unwrap();
         assert!(header.contains(&format!(" {prefix}_load_f32(")), "{header}");
         // The comment says from where the prefix is.
         let stem = name.strip_suffix(".h").unwrap();
@@ -247,7 +247,7 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
         assert!(header.contains(&said), "{header}");
     }
     // On stdout it is named after the model.
-    let model = folder.path().join("1.toml");
+    let model = folder.root().join("1.toml");
     std::fs::write(&model, &text).unwrap();
     let output = run(&["export", "--c", model.to_str().unwrap()]);
     let words = String::from_utf8(output.stderr).unwrap();
@@ -259,9 +259,9 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
 /// `rig-1.h` and `rig_1.h` have one prefix: the second one must not be left out in silence.
 #[test]
 fn two_headers_of_one_prefix_meet_in_peace_only_where_they_hold_the_same() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let write = |channels: &str, name: &str| {
-        written(&nasty(channels, &term("x")), folder.path(), name).unwrap();
+        written(&nasty(channels, &term("x")), folder.root(), name).unwrap();
     };
     write("\"x\", \"y\"", "rig-1.h");
     write("\"x\", \"y\"", "Rig_1.h");
@@ -270,7 +270,7 @@ fn two_headers_of_one_prefix_meet_in_peace_only_where_they_hold_the_same() {
     write("\"x\", \"z\"", "rig_2.h");
     let compiled = |headers: &[&str]| {
         let lines = headers.iter().map(|name| format!("#include \"{name}\"\n"));
-        let source = folder.path().join("program.c");
+        let source = folder.root().join("program.c");
         std::fs::write(&source, lines.collect::<String>()).unwrap();
         let output = std::process::Command::new("cc")
             .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wundef"])

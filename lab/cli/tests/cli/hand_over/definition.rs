@@ -1,6 +1,6 @@
 //! A channel that is the sum of two: whoever runs the model has to know how to compute it.
 
-use crate::shell::{bowden as run, said};
+use crate::shell::{bowden as run, said, Folder};
 use std::fmt::Write as _;
 
 /// A spring across the sum of two angles, on three tones. Written without the generator.
@@ -25,8 +25,8 @@ fn spring_of_the_stretch() -> String {
 
 #[test]
 fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let folder = Folder::new();
+    let path = |name: &str| folder.path(name);
     let (record, model) = (path("rig.csv"), path("rig.toml"));
     std::fs::write(&record, spring_of_the_stretch()).unwrap();
     let stretch = ["--channel", "stretch=proximal+distal"];

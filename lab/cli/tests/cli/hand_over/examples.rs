@@ -1,5 +1,6 @@
 //! The models in the repository, and the examples that run them.
 
+use crate::shell::Folder;
 use bowden::model::Model;
 use std::path::Path;
 
@@ -35,8 +36,8 @@ fn the_model_in_the_repository_is_one_model_in_three_forms_and_gives_its_vector(
 
 #[test]
 fn a_model_that_was_changed_does_not_give_its_vector() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("demo.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("demo.toml");
     let own = |name: &str| Path::new(DATA).join(name);
     let text = std::fs::read_to_string(own("demo.toml")).unwrap();
     let line = text.lines().find(|l| l.starts_with("rho = ")).unwrap();

@@ -1,7 +1,7 @@
 //! The fit within what a compensator can invert.
 
 use crate::hand_over::rig::{files, record, with, Told};
-use crate::shell::{bowden, said};
+use crate::shell::{bowden, said, Folder};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
 use bowden::model::{ModelState, Sample};
@@ -11,8 +11,8 @@ use bowden_synth::{Base, Mode, Recipe};
 
 /// The demo's command, as the README has it.
 fn demo(more: &[&str]) -> (ModelFile, serde_json::Value) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("model.toml").display().to_string();
+    let folder = Folder::new();
+    let path = folder.path("model.toml");
     let mut arguments = vec!["identify", "--json", "--model-out", &path];
     arguments.extend(more);
     let json = serde_json::from_str(&said(&arguments)).unwrap();
@@ -145,8 +145,8 @@ fn assert_page(page: &str, errors: [f64; 2], all: &[(&str, f64)]) {
 /// "explained … 0.14 %" would be said of another model than the one in the file.
 #[test]
 fn headline_parameters_summary_and_page_are_those_of_the_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
+    let folder = Folder::new();
+    let path = |name: &str| folder.path(name);
     let (model, page) = (path("model.toml"), path("page.html"));
     let asked = [
         "identify",
@@ -335,8 +335,8 @@ fn no_stage_is_handed_over_as_invertible_and_its_loss_is_said() {
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
 fn without_bouc_wen_there_is_nothing_to_invert_and_the_program_says_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("model.toml").display().to_string();
+    let folder = Folder::new();
+    let path = folder.path("model.toml");
     let arguments = [
         "identify",
         "--baseline",
@@ -353,5 +353,5 @@ fn without_bouc_wen_there_is_nothing_to_invert_and_the_program_says_so() {
         "{line}"
     );
     assert_eq!(line.trim_end().lines().count(), 1);
-    assert!(files(folder.path()).is_empty());
+    assert!(files(folder.root()).is_empty());
 }

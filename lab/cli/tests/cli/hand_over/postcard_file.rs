@@ -1,6 +1,6 @@
 //! The bytes that firmware reads, and their checksum.
 
-use crate::shell::said;
+use crate::shell::{said, Folder};
 use bowden::model::Model;
 use bowden_lab::export::{postcard as bytes, ModelFile, ShapeFile, TermFile, TransmissionFile};
 
@@ -86,8 +86,8 @@ fn the_checksum_is_that_of_zlib() {
 
 #[test]
 fn the_program_writes_the_same_model_as_postcard_and_as_toml() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
+    let folder = Folder::new();
+    let path = |name: &str| folder.path(name);
     let (toml, bytes) = (path("model.toml"), path("model.postcard"));
     said(&["identify", "--model-out", &toml]);
     said(&["identify", "--model-out", &bytes]);

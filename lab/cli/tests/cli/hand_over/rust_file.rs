@@ -3,7 +3,7 @@
 #![allow(clippy::approx_constant)]
 
 use crate::compiler::{compiled_and_run, module};
-use crate::shell::said;
+use crate::shell::{args, said, Folder};
 use bowden::effect::{Effect, Range, Viscous, CATALOGUE};
 use bowden_lab::export::{About, ModelFile, ShapeFile, Span, TermFile};
 
@@ -81,8 +81,8 @@ fn model_rs_compiles_without_warnings_for_every_effect_and_is_that_model() {
         expected += &format!("{:?}\n", file.model_in::<f32, 1>().unwrap());
     }
     program += &format!("fn main() {{\n{calls}}}\n");
-    let folder = tempfile::tempdir().unwrap();
-    assert_eq!(compiled_and_run(&program, folder.path()), expected);
+    let folder = Folder::new();
+    assert_eq!(compiled_and_run(&program, folder.root()), expected);
 }
 
 #[test]
@@ -96,11 +96,11 @@ fn a_model_of_more_terms_than_a_fixed_one_holds_is_written_as_one_of_any_effect(
         assert_eq!(text.contains("FixedModel"), terms == most);
         let program = module("a", &text)
             + "fn main() { println!(\"{:?}\", a::model().map(|m| m.terms().to_vec())); }";
-        let folder = tempfile::tempdir().unwrap();
+        let folder = Folder::new();
         let model = file.model_in::<f32, 17>().unwrap();
         assert_eq!(model.terms().len(), terms);
         let expected = format!("Ok({:?})\n", model.terms());
-        assert_eq!(compiled_and_run(&program, folder.path()), expected);
+        assert_eq!(compiled_and_run(&program, folder.root()), expected);
     }
 }
 
@@ -114,15 +114,15 @@ fn a_model_of_nothing_but_a_transmission_compiles_too() {
     let program = module("a", &with_ranges)
         + &module("b", &plain)
         + "fn main() { assert_eq!(a::model(), b::model()); println!(\"{:?}\", b::model()); }";
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let expected = format!("Ok({:?})\n", file.model_in::<f32, 0>().unwrap());
-    assert_eq!(compiled_and_run(&program, folder.path()), expected);
+    assert_eq!(compiled_and_run(&program, folder.root()), expected);
 }
 
 #[test]
 fn the_written_model_with_its_rates_and_ranges_makes_a_feed_forward() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("model.rs");
+    let folder = Folder::new();
+    let path = folder.root().join("model.rs");
     said(&[
         "identify",
         "--invertible",
@@ -153,25 +153,17 @@ fn main() -> Result<(), bowden::Error> {
     Ok(())
 }
 "#;
-    assert_eq!(compiled_and_run(&program, folder.path()), "true\n");
+    assert_eq!(compiled_and_run(&program, folder.root()), "true\n");
 }
 
 #[test]
 fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
+    let folder = Folder::new();
+    let path = |name: &str| folder.path(name);
     let csv = path("bench.csv");
-    said(&[
-        "generate",
-        "--mode",
-        "torque",
-        "--effect",
-        "coulomb:20",
-        "--seed",
-        "4",
-        "--out",
-        &csv,
-    ]);
+    said(&args(&format!(
+        "generate --mode torque --effect coulomb:20 --seed 4 --out {csv}"
+    )));
     for name in ["model.rs", "model.toml"] {
         said(&[
             "identify",
@@ -182,7 +174,7 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
             &path(name),
         ]);
         let text = std::fs::read_to_string(path(name)).unwrap();
-        let place = folder.path().display().to_string();
+        let place = folder.root().display().to_string();
         assert!(!text.contains(&place), "{text}");
         assert!(text.contains("bench.csv"), "{text}");
     }

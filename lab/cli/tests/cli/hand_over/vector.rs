@@ -1,7 +1,7 @@
 //! The test vector beside each model.
 
 use crate::hand_over::rig::{files, record};
-use crate::shell::{bowden, said};
+use crate::shell::{args, bowden, said, Folder};
 use bowden::effect::Motion;
 use bowden::model::{Model, ModelState, Sample};
 use bowden::Real;
@@ -43,11 +43,11 @@ fn model(path: &Path) -> ModelFile {
 
 #[test]
 fn a_model_steps_through_its_vector_to_the_bit_in_both_precisions() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("model.toml");
+    let folder = Folder::new();
+    let path = folder.root().join("model.toml");
     said(&["identify", "--model-out", &path.display().to_string()]);
-    assert_eq!(files(folder.path()), ["model.toml", "model.vector.csv"]);
-    let csv = std::fs::read_to_string(folder.path().join("model.vector.csv")).unwrap();
+    assert_eq!(files(folder.root()), ["model.toml", "model.vector.csv"]);
+    let csv = folder.read("model.vector.csv");
     assert_eq!(
         csv.lines().next().unwrap(),
         "dt,input,input.velocity,input.acceleration,load,phi_p,phi_p.velocity,phi_p.acceleration,phi_d,phi_d.velocity,phi_d.acceleration,output_f32,output_f64"
@@ -77,7 +77,7 @@ fn a_model_steps_through_its_vector_to_the_bit_in_both_precisions() {
 
 #[test]
 fn with_gains_for_each_file_each_has_its_model_and_its_vector() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let csv = |name: &str, kappa_eta: f64, seed: u64| {
         let base = Base {
             gain: 0.95,
@@ -92,24 +92,18 @@ fn with_gains_for_each_file_each_has_its_model_and_its_vector() {
             seed,
             ..Recipe::new(Mode::Torque)
         };
-        let path = folder.path().join(name);
+        let path = folder.root().join(name);
         let text = bowden_synth::generate(&recipe).unwrap().to_csv();
         std::fs::write(&path, text).unwrap();
         path.display().to_string()
     };
     let (one, two) = (csv("straight.csv", 2.0, 1), csv("bent.csv", 4.0, 2));
-    let out = folder.path().join("out");
+    let out = folder.root().join("out");
     std::fs::create_dir(&out).unwrap();
     let path = out.join("model.toml").display().to_string();
-    said(&[
-        "identify",
-        &one,
-        &two,
-        "--per-file",
-        "gains",
-        "--model-out",
-        &path,
-    ]);
+    said(&args(&format!(
+        "identify {one} {two} --per-file gains --model-out {path}"
+    )));
     let names = [
         "model-1.toml",
         "model-1.vector.csv",
@@ -133,23 +127,23 @@ fn with_gains_for_each_file_each_has_its_model_and_its_vector() {
 
 #[test]
 fn where_the_vector_cannot_be_written_there_is_no_model_either() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     // A folder where the vector should go: its name cannot be taken.
-    std::fs::create_dir(folder.path().join("model.vector.csv")).unwrap();
-    let path = folder.path().join("model.rs").display().to_string();
+    std::fs::create_dir(folder.root().join("model.vector.csv")).unwrap();
+    let path = folder.path("model.rs");
     let output = bowden(&["identify", "--model-out", &path]);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(files(folder.path()), ["model.vector.csv"]);
+    assert_eq!(files(folder.root()), ["model.vector.csv"]);
 }
 
 #[test]
 fn where_the_model_cannot_be_written_there_is_no_vector_either() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::create_dir(folder.path().join("model.rs")).unwrap();
-    let path = folder.path().join("model.rs").display().to_string();
+    let folder = Folder::new();
+    std::fs::create_dir(folder.root().join("model.rs")).unwrap();
+    let path = folder.path("model.rs");
     let output = bowden(&["identify", "--model-out", &path]);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(files(folder.path()), ["model.rs"]);
+    assert_eq!(files(folder.root()), ["model.rs"]);
 }
 
 #[test]

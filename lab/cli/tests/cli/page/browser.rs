@@ -1,7 +1,6 @@
 //! The page in a browser, where one is on PATH.
 
-use crate::shell::said;
-use crate::page::{example, Folder};
+use crate::shell::{example, said, Folder};
 use std::path::PathBuf;
 use std::process::Command;
 

@@ -1,7 +1,7 @@
 //! The page of `validate`.
 
-use crate::shell::said;
-use crate::page::{assert_sound, elements, example, parsed, sections, text, Folder};
+use crate::page::{assert_sound, elements, parsed, sections, text};
+use crate::shell::{example, said, Folder};
 
 fn page(folder: &Folder, record: &str) -> (String, serde_json::Value) {
     let (model, out) = (folder.path("model.toml"), folder.path("check.html"));

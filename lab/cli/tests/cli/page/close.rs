@@ -1,7 +1,7 @@
 //! The page of `identify`.
 
-use crate::shell::{bowden_on, said, text as utf8};
-use crate::page::{assert_sound, elements, example, parsed, sections, text, Folder};
+use crate::page::{assert_sound, elements, parsed, sections, text};
+use crate::shell::{bowden_on, example, said, text as utf8, Folder};
 
 /// The numbers of all `data` elements.
 fn numbers(page: &str) -> Vec<f64> {

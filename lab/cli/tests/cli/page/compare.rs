@@ -1,22 +1,13 @@
 //! The page of `compare`.
 
-use crate::shell::said;
-use crate::page::{assert_sound, elements, parsed, sections, text, Folder};
+use crate::page::{assert_sound, elements, parsed, sections, text};
+use crate::shell::{args, example, said, Folder};
 
 #[test]
 fn the_page_has_each_controller_with_the_conduit_at_rest_and_moved() {
     let folder = Folder::new();
     let out = folder.path("compare.html");
-    let arguments = [
-        "compare",
-        "--seconds",
-        "20",
-        "--seeds",
-        "1",
-        "--noise",
-        "0.02",
-        "--json",
-    ];
+    let arguments = args("compare --seconds 20 --seeds 1 --noise 0.02 --json");
     let printed = said(&[arguments.as_slice(), &["--report", &out]].concat());
     assert_eq!(
         printed,
@@ -67,15 +58,10 @@ fn the_page_names_model_gains_and_rig_and_keeps_the_papers_results_out() {
     let folder = Folder::new();
     let (model, gains) = (folder.path("model.toml"), folder.path("gains.toml"));
     let out = folder.path("compare.html");
-    let record = crate::page::example("straight.csv");
-    said(&[
-        "identify",
-        &record,
-        "--max-terms",
-        "0",
-        "--model-out",
-        &model,
-    ]);
+    let record = example("straight.csv");
+    said(&args(&format!(
+        "identify {record} --max-terms 0 --model-out {model}"
+    )));
     let asked = ["--rate", "500", "--delay", "0.006", "--out", &gains];
     said(&[&["design", &model], asked.as_slice()].concat());
     let short = [

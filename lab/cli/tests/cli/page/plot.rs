@@ -1,7 +1,7 @@
 //! One figure as a file.
 
-use crate::shell::said;
-use crate::page::{elements, example, Folder};
+use crate::page::elements;
+use crate::shell::{example, said, Folder};
 use roxmltree::Document;
 
 #[test]

@@ -1,7 +1,6 @@
 //! What cannot be drawn is refused before anything is read.
 
-use crate::shell::{bowden, refused, said};
-use crate::page::{example, Folder};
+use crate::shell::{args, bowden, example, refused, said, Folder};
 
 #[test]
 fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
@@ -33,15 +32,9 @@ fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
         assert!(line.contains("would overwrite"), "{line}");
     }
     let nowhere = folder.path("no-such-folder/page.html");
-    let line = refused(&[
-        "compare",
-        "--seconds",
-        "3600",
-        "--seeds",
-        "1000",
-        "--report",
-        &nowhere,
-    ]);
+    let line = refused(&args(&format!(
+        "compare --seconds 3600 --seeds 1000 --report {nowhere}"
+    )));
     assert!(line.contains("--report"), "{line}");
     let same = folder.path("same.html");
     for other in ["--plot", "--trace"] {
@@ -62,7 +55,7 @@ fn no_output_takes_the_place_of_another_file_of_the_command() {
     let (missing, record) = (folder.path("later.csv"), folder.path("record.csv"));
     let (model, out) = (folder.path("model.toml"), folder.path("out.html"));
     let vector = folder.path("model.vector.csv");
-    let name = folder.0.path().file_name().unwrap().to_str().unwrap();
+    let name = folder.root().file_name().unwrap().to_str().unwrap();
     let other = folder.path(&format!("../{name}/out.html"));
     std::fs::write(&out, "before").unwrap();
     std::fs::copy(example("straight.csv"), &record).unwrap();

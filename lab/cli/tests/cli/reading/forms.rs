@@ -1,9 +1,9 @@
 //! Every form of one record gives the same answer.
 
 use crate::reading::record::{
-    csv, foreign, german, gzip, latin_1, ndjson, rows, utf_16, values, Folder, NAMES,
+    csv, foreign, german, gzip, latin_1, ndjson, rows, utf_16, values, NAMES,
 };
-use crate::shell::{refused, said, without_seconds};
+use crate::shell::{args, refused, said, without_seconds, Folder};
 use bowden_lab::facts::{Asked, Options, Record};
 use std::path::Path;
 
@@ -118,14 +118,9 @@ fn rows_that_are_left_out_are_counted_in_the_ledger_and_in_the_json() {
     let text = said(&["identify", &path, "--drop-bad", "--max-terms", "0"]);
     let note = "--drop-bad dropped 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
     assert!(text.contains(note), "{text}");
-    let json = said(&[
-        "identify",
-        &path,
-        "--drop-bad",
-        "--max-terms",
-        "0",
-        "--json",
-    ]);
+    let json = said(&args(&format!(
+        "identify {path} --drop-bad --max-terms 0 --json"
+    )));
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["record"]["dropped"], 3);
     assert_eq!(json["record"]["samples"], 2557);
@@ -344,29 +339,16 @@ fn every_command_that_reads_a_record_reads_every_form_with_the_same_options() {
         .collect();
     bad[898] = "3.5,,1,1".to_owned();
     let path = folder.file("r.csv.gz", gzip(bad.join("\n").as_bytes()));
-    let options = [
-        "--header-line",
-        "2",
-        "--drop-bad",
-        "--channel",
-        "stretch=x_mm-load_in_mm",
-    ];
+    let options = args("--header-line 2 --drop-bad --channel stretch=x_mm-load_in_mm");
     let close = ["identify", &path, "--max-terms", "0", "--model-out", &model];
     let text = said(&[&close[..], &options].concat());
     assert!(text.contains("channels stretch"), "{text}");
     for command in [
         &["validate", &model, &path][..],
         &["plan", &path, "--max-terms", "0"],
-        &[
-            "power",
-            &path,
-            "--max-terms",
-            "0",
-            "--trials",
-            "5",
-            "--effects",
-            "offset",
-        ],
+        &args(&format!(
+            "power {path} --max-terms 0 --trials 5 --effects offset"
+        )),
     ] {
         said(&[command, &options].concat());
     }

@@ -1,7 +1,7 @@
 //! Each kind of file that cannot be read gets one line and exit status 2.
 
-use crate::reading::record::{csv, foreign, gzip, Folder};
-use crate::shell::refused;
+use crate::reading::record::{csv, foreign, gzip};
+use crate::shell::{refused, Folder};
 use bowden_lab::facts::Asked;
 
 /// The line behind the file's name.

@@ -2,13 +2,13 @@
 
 use crate::sentences::changed::{spring, spring_moved_by};
 use crate::sentences::files::{noise, Closed, Rows};
-use tempfile::TempDir;
+use crate::shell::Folder;
 
 /// Records of one spring with a hysteresis behind each other, as many as there are names, the
 /// output of each as `changed` says of its place.
-fn files(names: &[&str], changed: impl Fn(usize, usize, f64) -> f64) -> (Vec<String>, TempDir) {
+fn files(names: &[&str], changed: impl Fn(usize, usize, f64) -> f64) -> (Vec<String>, Folder) {
     let whole = spring((99.0, 0.0), 0);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let length = whole.rows.len() / names.len();
     let written = names.iter().enumerate().map(|(place, name)| {
         let mut part = Rows {
@@ -23,7 +23,7 @@ fn files(names: &[&str], changed: impl Fn(usize, usize, f64) -> f64) -> (Vec<Str
     (written.collect(), folder)
 }
 
-fn two_files(changed: impl Fn(f64) -> f64) -> (Closed, TempDir) {
+fn two_files(changed: impl Fn(f64) -> f64) -> (Closed, Folder) {
     let of = |place, _, force| match place {
         0 => force,
         _ => changed(force),
@@ -105,7 +105,7 @@ fn pulled(begin: f64, factor: f64) -> Rows {
 /// other one fifty times over, and still leave little of the sum.
 #[test]
 fn a_unit_of_a_thousandth_is_told_where_an_effect_is_missing_too() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let paths = [
         pulled(0.0, 1.0).write(&folder, "newton.csv"),
         pulled(100.0, 1e3).write(&folder, "milli.csv"),
@@ -177,7 +177,7 @@ fn files_of_one_rig_are_not_apart() {
 fn files_of_two_strokes_on_a_spring_that_hardens_are_not_apart() {
     let small = spring_moved_by(0.3, (99.0, 0.0), 0);
     let large = spring((99.0, 0.0), 0);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let hardens = |mut rows: Rows, name: &str| {
         rows.set(2, |_, row| row[2] + 0.8 * row[1].powi(3));
         rows.write(&folder, name)
@@ -193,7 +193,7 @@ fn files_of_two_strokes_on_a_spring_that_hardens_are_not_apart() {
 #[test]
 fn files_of_two_rigs_are_said_to_be_that_and_no_zero_is_blamed() {
     let whole = spring((99.0, 0.0), 0);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let middle = whole.rows.len() / 2;
     let half = |rows: &[Vec<f64>]| Rows {
         header: whole.header.clone(),

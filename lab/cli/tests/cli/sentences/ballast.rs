@@ -3,7 +3,7 @@
 
 use crate::sentences::changed::spring;
 use crate::sentences::files::{noise, uniform, Rows};
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 
 const RATE: f64 = 500.0;
 
@@ -38,8 +38,8 @@ fn relaxing_spring_moved_within(band: f64, leap: f64, seed: usize) -> Rows {
 
 #[test]
 fn a_hysteresis_that_is_not_needed_is_redundant_and_the_model_holds_elsewhere() {
-    let folder = tempfile::tempdir().unwrap();
-    let model = folder.path().join("model.toml").display().to_string();
+    let folder = Folder::new();
+    let model = folder.path("model.toml");
     let closed = relaxing_spring(11).close(&["--model-out", &model]);
     assert_eq!(closed.names(), ["creep"]);
     let parts = closed.json["redundant"].as_array().unwrap();

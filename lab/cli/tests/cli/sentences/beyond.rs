@@ -2,7 +2,7 @@
 //! what is said of them must not mislead.
 
 use crate::sentences::files::{noise, Rows};
-use crate::shell::{bowden, said};
+use crate::shell::{bowden, said, Folder};
 use std::f64::consts::TAU;
 
 const RATE: usize = 500;
@@ -128,9 +128,9 @@ fn friction_that_falls_with_a_measured_temperature_is_named() {
 #[test]
 fn a_torque_that_falls_is_refused_by_design_and_close_says_so() {
     let rows = cable(-0.9, -0.6, 0.0);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let record = rows.write(&folder, "falls.csv");
-    let model = folder.path().join("model.toml").display().to_string();
+    let model = folder.path("model.toml");
     let told = said(&["identify", &record, "--model-out", &model]);
     for text in [
         "feed-forward: yes, but the output falls while the input rises",
@@ -178,9 +178,9 @@ const EIGHT: [(f64, f64); 8] = [
 /// What slips at a stretch that a small motion does not reach remembers what came before it.
 #[test]
 fn what_is_remembered_of_the_motion_before_the_record_does_not_blame_the_rig_alone() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let record = maxwell(&EIGHT, &TONES, 40).write(&folder, "first.csv");
-    let model = folder.path().join("model.toml").display().to_string();
+    let model = folder.path("model.toml");
     said(&["identify", &record, "--model-out", &model]);
     let small = [(3.0, 0.31, 0.0), (2.0, 0.83, 0.5), (2.0, 1.7, 0.9)];
     let small = maxwell(&EIGHT, &small, 30).write(&folder, "small.csv");
@@ -203,7 +203,7 @@ fn what_is_remembered_of_the_motion_before_the_record_does_not_blame_the_rig_alo
 /// A larger stroke would show both shapes at their bounds 1.2 and 1.3 times as strongly.
 #[test]
 fn nothing_is_planned_that_makes_no_parameter_known() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let record = slack(0.3, 0.8).write(&folder, "slack.csv");
     let output = bowden(&["plan", &record]);
     let told = String::from_utf8(output.stderr).unwrap();

@@ -1,6 +1,7 @@
 //! Records whose parts differ: what is told of held-out data, of rounds and of files.
 
 use crate::sentences::files::{noise, Closed, Rows, PHI_P, T, TAU_I, TAU_O};
+use crate::shell::{args, Folder};
 use std::sync::OnceLock;
 
 /// The turned record, closed once for all tests of it.
@@ -61,9 +62,7 @@ fn a_round_that_raises_the_held_out_error_is_marked() {
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
 fn a_held_out_part_that_is_much_quieter_is_told_with_both_standard_deviations() {
-    let mut rows = Rows::generated(&[
-        "--mode", "torque", "--seed", "34", "--rate", "500", "--effect", "viscous",
-    ]);
+    let mut rows = Rows::generated(&args("--mode torque --seed 34 --rate 500 --effect viscous"));
     let end = rows.seconds();
     // From the seventh tenth on all motion shrinks to a twenty-first.
     for row in &mut rows.rows {
@@ -146,17 +145,10 @@ fn a_sound_record_is_explained_and_the_sentence_has_the_figures_of_the_line_abov
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
 fn with_gains_of_its_own_a_file_that_gets_worse_is_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let straight = Rows::generated(&[
-        "--mode",
-        "torque",
-        "--seed",
-        "36",
-        "--rate",
-        "250",
-        "--effect",
-        "viscous:6",
-    ]);
+    let folder = Folder::new();
+    let straight = Rows::generated(&args(
+        "--mode torque --seed 36 --rate 250 --effect viscous:6",
+    ));
     let mut bent = Rows::generated(&["--mode", "torque", "--seed", "37", "--rate", "250"]);
     let end = bent.seconds();
     let angle: Vec<f64> = bent.rows.iter().map(|row| row[PHI_P]).collect();

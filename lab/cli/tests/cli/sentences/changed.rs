@@ -2,7 +2,7 @@
 //! not seen: what the boss reads must be that.
 
 use crate::sentences::files::{evidence, noise, Closed, Rows};
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 
 /// A spring with a hysteresis, moved by tones; `slip` is taken from the true motion after the time
 /// given, and the force is logged as many samples early.
@@ -111,9 +111,9 @@ fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
 
 /// What `validate` says of a model of the spring, on that spring with another factor of its force.
 fn checked(of_force: f64) -> serde_json::Value {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let first = spring((99.0, 0.0), 0).write(&folder, "first.csv");
-    let model = folder.path().join("model.toml").display().to_string();
+    let model = folder.path("model.toml");
     let made = bowden(&["identify", &first, "--model-out", &model]);
     assert!(made.status.success(), "{made:?}");
     let mut other = spring((99.0, 0.0), 0);
@@ -138,7 +138,7 @@ fn a_sign_that_was_turned_is_named_by_check() {
 
 #[test]
 fn a_file_with_another_zero_is_not_the_wrong_input() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let mut files: Vec<String> = Vec::new();
     for (index, zero) in [0.0, 0.0, 30.0].into_iter().enumerate() {
         let mut rows = spring((99.0, 0.0), 0);

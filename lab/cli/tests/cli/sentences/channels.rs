@@ -2,19 +2,16 @@
 //! place: the sentence asks for it.
 
 use crate::sentences::files::{Closed, Rows, PHI_P};
-use tempfile::TempDir;
+use crate::shell::{args, Folder};
 
 const PHI_D: usize = PHI_P + 1;
 
 /// Two halves of one record with effects of both angles; the second half as `changed` has it.
-fn halves(changed: impl Fn(&mut Rows)) -> (Closed, TempDir) {
-    let whole = Rows::generated(&[
-        "--effect=viscous@phi_p:2",
-        "--effect=gravity@phi_d:2",
-        "--seed=41",
-        "--seconds=40",
-    ]);
-    let folder = tempfile::tempdir().unwrap();
+fn halves(changed: impl Fn(&mut Rows)) -> (Closed, Folder) {
+    let whole = Rows::generated(&args(
+        "--effect=viscous@phi_p:2 --effect=gravity@phi_d:2 --seed=41 --seconds=40",
+    ));
+    let folder = Folder::new();
     let middle = whole.rows.len() / 2;
     let half = |rows: &[Vec<f64>]| Rows {
         header: whole.header.clone(),

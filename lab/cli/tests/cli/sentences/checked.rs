@@ -3,13 +3,12 @@
 
 use crate::sentences::changed::{spring, spring_moved_by};
 use crate::sentences::files::{evidence, noise, Rows};
-use crate::shell::said;
+use crate::shell::{said, Folder};
 use serde_json::Value;
-use tempfile::TempDir;
 
 /// A model of the spring, and records of that spring to check it on.
 struct Bench {
-    folder: TempDir,
+    folder: Folder,
     model: String,
 }
 
@@ -20,9 +19,9 @@ const F: usize = 2;
 
 impl Bench {
     fn of(first: &Rows) -> Self {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = Folder::new();
         let first = first.write(&folder, "first.csv");
-        let model = folder.path().join("model.toml").display().to_string();
+        let model = folder.path("model.toml");
         said(&["identify", &first, "--model-out", &model]);
         Self { folder, model }
     }

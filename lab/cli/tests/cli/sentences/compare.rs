@@ -1,11 +1,11 @@
 //! `bowden compare`: a law that ran away has no error, and the rig takes torque models only.
 
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 use serde_json::Value;
 
-fn written(text: &str) -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gains.toml");
+fn written(text: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    let path = folder.root().join("gains.toml");
     std::fs::write(&path, text).unwrap();
     let path = path.display().to_string();
     (folder, path)

@@ -1,6 +1,6 @@
 //! Records to be closed.
 
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 use serde_json::Value;
 
 /// Rows of a record: time first.
@@ -41,21 +41,21 @@ impl Rows {
         self.rows.last().unwrap()[T]
     }
 
-    pub fn write(&self, folder: &tempfile::TempDir, name: &str) -> String {
+    pub fn write(&self, folder: &Folder, name: &str) -> String {
         let mut text = self.header.clone();
         for row in &self.rows {
             let cells: Vec<String> = row.iter().map(f64::to_string).collect();
             text += "\n";
             text += &cells.join(",");
         }
-        let path = folder.path().join(name);
+        let path = folder.root().join(name);
         std::fs::write(&path, text).unwrap();
         path.display().to_string()
     }
 
     /// What `identify` says of it, for people and for programs.
     pub fn close(&self, options: &[&str]) -> Closed {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = Folder::new();
         let path = self.write(&folder, "record.csv");
         Closed {
             _folder: Some(folder),
@@ -68,7 +68,7 @@ pub struct Closed {
     arguments: Vec<String>,
     pub json: Value,
     /// The record, as long as the program may have to read it again.
-    _folder: Option<tempfile::TempDir>,
+    _folder: Option<Folder>,
 }
 
 fn close(arguments: &[&str], more: &[&str]) -> String {

@@ -1,7 +1,7 @@
 //! One sound rig, moved in the ways in which rigs are moved, by a load cell that does what load cells do.
 
 use crate::sentences::files::{noise, Rows};
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 
 /// Forty seconds of a spring with a hysteresis of that size [N]; `zero` is what the cell adds.
 fn moved(hysteresis: f64, x: impl Fn(f64) -> f64, zero: impl Fn(f64) -> f64) -> Rows {
@@ -61,10 +61,10 @@ fn a_cell_that_warms_up_is_asked_about_where_creep_is_named() {
 /// The clamp has slipped by 0.8 N of the spring, and stays so.
 #[test]
 fn a_model_of_a_rig_that_has_slipped_is_that_of_the_rig_after_it_and_tells_when_that_changes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let slips = |t: f64| if t > 13.0 { 0.8 } else { 0.0 };
     let record = moved(4.0, tones, slips).write(&folder, "slips.csv");
-    let model = folder.path().join("model.toml").display().to_string();
+    let model = folder.path("model.toml");
     let closed = bowden(&["identify", &record, "--model-out", &model]);
     assert!(closed.status.success(), "{closed:?}");
     let text = std::fs::read_to_string(&model).unwrap();

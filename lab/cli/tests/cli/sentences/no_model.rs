@@ -1,7 +1,7 @@
 //! Files in which there is no model to be found: the verdict must say so.
 
 use crate::sentences::files::{noise, Closed, Rows, PHI_P, T, TAU_I, TAU_O};
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 use std::f64::consts::TAU;
 
 fn sound() -> Rows {
@@ -29,9 +29,9 @@ fn an_input_at_rest_is_told_and_nothing_is_planned_from_its_noise() {
     let closed = rows.close(&[]);
     assert_eq!(closed.verdict(), "no-input-dependence");
     closed.says(&["`tau_i` is at rest", "Record a motion"]);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let record = rows.write(&folder, "rest.csv");
-    let plan = folder.path().join("plan.csv");
+    let plan = folder.root().join("plan.csv");
     let asked = ["plan", &record, "--out", plan.to_str().unwrap()];
     for asked in [asked.as_slice(), &["power", &record]] {
         let output = bowden(asked);
@@ -206,9 +206,9 @@ fn where_only_the_channels_explain_the_output_the_input_is_asked_about() {
 fn the_files_of_no_model_say_so_and_no_gains_are_derived_from_it() {
     let mut rows = sound();
     rows.set(TAU_O, |i, _| noise(i));
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let record = rows.write(&folder, "record.csv");
-    let path = |name: &str| folder.path().join(name).display().to_string();
+    let path = |name: &str| folder.path(name);
     let (toml, rust) = (path("m.toml"), path("m.rs"));
     for out in [&toml, &rust] {
         assert!(bowden(&["identify", &record, "--model-out", out])

@@ -1,6 +1,7 @@
 //! A model may fit well with velocities without phase, and err with those of a chip.
 
 use crate::sentences::files::{noise, Closed, Rows};
+use crate::shell::args;
 use std::f64::consts::TAU;
 
 /// A mass on a spring, moved by two tones, the slower one of that amplitude.
@@ -21,14 +22,9 @@ fn moved(mass: f64, slow: f64) -> Closed {
         rows: (0..6000).map(row).collect(),
     };
     let declared = "inertia,stiffness-linear,offset";
-    rows.close(&[
-        "--mode",
-        "displacement",
-        "--baseline",
-        declared,
-        "--max-terms",
-        "0",
-    ])
+    rows.close(&args(&format!(
+        "--mode displacement --baseline {declared} --max-terms 0"
+    )))
 }
 
 #[test]

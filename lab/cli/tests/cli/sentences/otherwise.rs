@@ -2,13 +2,12 @@
 //! that, and does not blame the rig.
 
 use crate::sentences::files::{evidence, Rows, PHI_P, T, TAU_I, TAU_O};
-use crate::shell::said;
+use crate::shell::{said, Folder};
 use serde_json::Value;
-use tempfile::TempDir;
 
 /// Two records of one cable with friction of the proximal pulley, and the model of the first.
 struct Bench {
-    folder: TempDir,
+    folder: Folder,
     model: String,
     next: Rows,
 }
@@ -24,9 +23,9 @@ impl Bench {
         };
         let begin = next.rows[0][T];
         next.set(T, |_, row| row[T] - begin);
-        let folder = tempfile::tempdir().unwrap();
+        let folder = Folder::new();
         let first = first.write(&folder, "first.csv");
-        let model = folder.path().join("model.toml").display().to_string();
+        let model = folder.path("model.toml");
         said(&["identify", &first, "--model-out", &model]);
         Self {
             model,

@@ -1,7 +1,7 @@
 //! What is said before anything is fitted.
 
 use crate::sentences::files::{Rows, T};
-use crate::shell::bowden;
+use crate::shell::{bowden, Folder};
 
 #[test]
 fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {
@@ -24,7 +24,7 @@ fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {
 
 #[test]
 fn a_column_that_is_not_there_is_named_with_the_nearest_ones() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let mut rows = Rows::generated(&["--mode", "displacement", "--seed", "39"]);
     rows.header = "t [s],x_mm,force_N".to_owned();
     for row in &mut rows.rows {

@@ -1,7 +1,14 @@
 //! The program as a user runs it: what it is asked, and what it answers.
 
+use bowden_synth::{generate, Recipe};
 use std::path::Path;
 use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// The words of a command line.
+pub fn args(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
 
 pub fn bowden(arguments: &[&str]) -> Output {
     let mut program = Command::new(env!("CARGO_BIN_EXE_bowden"));
@@ -52,10 +59,57 @@ pub fn without_seconds(stdout: &[u8]) -> String {
     format!("{before}{after}")
 }
 
+/// A folder with files that the program reads and writes.
+pub struct Folder(TempDir);
+
+impl Folder {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn root(&self) -> &Path {
+        self.0.path()
+    }
+
+    pub fn path(&self, name: &str) -> String {
+        self.root().join(name).display().to_string()
+    }
+
+    pub fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> String {
+        std::fs::write(self.root().join(name), bytes).unwrap();
+        self.path(name)
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.root().join(name)).unwrap()
+    }
+
+    /// The names of the files, sorted.
+    pub fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.root()).unwrap();
+        let name = |e: std::fs::DirEntry| e.file_name().to_string_lossy().into_owned();
+        let mut names: Vec<String> = entries.map(|e| name(e.unwrap())).collect();
+        names.sort();
+        names
+    }
+
+    /// A record of the program's generator.
+    pub fn record(&self, name: &str, options: &[&str]) -> String {
+        let path = self.path(name);
+        said(&[&["generate", "--out", &path], options].concat());
+        path
+    }
+
+    /// A planted record.
+    pub fn planted(&self, name: &str, recipe: &Recipe) -> String {
+        self.file(name, generate(recipe).unwrap().to_csv())
+    }
+}
+
 /// A folder that looks like the repository to commands that read `examples/data`.
-pub fn folder_with_examples() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let data = folder.path().join("examples/data");
+pub fn folder_with_examples() -> Folder {
+    let folder = Folder::new();
+    let data = folder.root().join("examples/data");
     std::fs::create_dir_all(&data).unwrap();
     let own = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/data"));
     for file in std::fs::read_dir(own).unwrap().map(Result::unwrap) {
@@ -67,11 +121,11 @@ pub fn folder_with_examples() -> tempfile::TempDir {
 }
 
 /// The program in a folder.
-pub fn bowden_in(folder: &tempfile::TempDir, arguments: &[&str]) -> Output {
+pub fn bowden_in(folder: &Folder, arguments: &[&str]) -> Output {
     let mut program = Command::new(env!("CARGO_BIN_EXE_bowden"));
     program
         .args(arguments)
-        .current_dir(folder.path())
+        .current_dir(folder.root())
         .output()
         .unwrap()
 }

@@ -2,4 +2,3 @@
 
 mod program;
 mod refused;
-mod rig;

@@ -1,7 +1,6 @@
 //! The program from outside.
 
-use crate::ways::rig::Folder;
-use crate::shell::{refused, said};
+use crate::shell::{args, refused, said, Folder};
 use bowden_lab::check::Given;
 use bowden_lab::export::ModelFile;
 use bowden_synth::{Mode, Planted, Recipe};
@@ -19,58 +18,18 @@ fn json(arguments: &[&str]) -> Value {
 }
 
 #[test]
-fn the_json_of_a_check_is_laid_out_as_documented_and_the_same_each_time() {
+fn the_json_of_a_check_has_the_models_errors_and_is_the_same_each_time() {
     let folder = Folder::new();
-    let own = folder.record("own.csv", &viscous(76_000));
-    let next = folder.record("next.csv", &viscous(76_001));
+    let own = folder.planted("own.csv", &viscous(76_000));
+    let next = folder.planted("next.csv", &viscous(76_001));
     let model = folder.path("model.toml");
-    let report = json(&[
-        "identify",
-        &own,
-        "--max-terms",
-        "1",
-        "--json",
-        "--model-out",
-        &model,
-    ]);
+    let report = json(&args(&format!(
+        "identify {own} --max-terms 1 --json --model-out {model}"
+    )));
 
     let first = said(&["validate", &model, &next, "--json"]);
     assert_eq!(first, said(&["validate", &model, &next, "--json"]));
     let check: Value = serde_json::from_str(&first).unwrap();
-    let keys: Vec<&str> = check
-        .as_object()
-        .unwrap()
-        .keys()
-        .map(String::as_str)
-        .collect();
-    assert_eq!(
-        keys,
-        [
-            "schema",
-            "model",
-            "record",
-            "rmse",
-            "nrmse",
-            "rmse_gain_offset",
-            "nrmse_gain_offset",
-            "gain",
-            "offset",
-            "trained_on",
-            "threshold_nrmse",
-            "noise_floor",
-            "outside",
-            "depends_on",
-            "findings",
-            "defects",
-            "notes",
-            "verdict",
-            "summary"
-        ]
-        .into_iter()
-        .collect::<std::collections::BTreeSet<_>>()
-        .into_iter()
-        .collect::<Vec<_>>()
-    );
     assert_eq!(check["schema"], "bowden.validate/1");
     assert_eq!(check["verdict"], "holds");
     for segment in ["fit", "held_out"] {
@@ -95,8 +54,8 @@ fn the_json_of_a_check_is_laid_out_as_documented_and_the_same_each_time() {
 #[test]
 fn the_text_of_a_validation_begins_with_the_answer_and_its_trace_has_the_models_parts() {
     let folder = Folder::new();
-    let own = folder.record("own.csv", &viscous(76_002));
-    let next = folder.record("next.csv", &viscous(76_003));
+    let own = folder.planted("own.csv", &viscous(76_002));
+    let next = folder.planted("next.csv", &viscous(76_003));
     let (model, trace) = (folder.path("model.toml"), folder.path("trace.csv"));
     said(&["identify", &own, "--max-terms", "1", "--model-out", &model]);
     let text = said(&["validate", &model, &next, "--trace", &trace]);
@@ -128,7 +87,7 @@ fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same()
         ],
         ..Recipe::of_one_rig(Mode::Displacement, 76_004)
     };
-    let record = folder.record("r.csv", &recipe);
+    let record = folder.planted("r.csv", &recipe);
     let all = json(&["identify", &record, "--json"]);
     let rounds = all["terms"].as_array().unwrap();
     assert!(rounds.len() >= 2 && all["stopped_by_max_terms"].is_null());
@@ -144,15 +103,9 @@ fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same()
     assert_eq!(last["refitted"], all["final"]["refitted"]);
 
     let path = folder.path("one.toml");
-    let one = json(&[
-        "identify",
-        &record,
-        "--max-terms",
-        "1",
-        "--json",
-        "--model-out",
-        &path,
-    ]);
+    let one = json(&args(&format!(
+        "identify {record} --max-terms 1 --json --model-out {path}"
+    )));
     assert_eq!(one["stopped_by_max_terms"], 1);
     assert_eq!(one["terms"].as_array().unwrap().len(), 1);
     let written: ModelFile = toml::from_str(&folder.read("one.toml")).unwrap();
@@ -172,21 +125,13 @@ fn the_json_of_close_has_the_model_after_each_round_and_rounds_writes_the_same()
 #[test]
 fn a_trace_of_several_records_says_of_which_each_line_is_and_is_the_same_each_time() {
     let folder = Folder::new();
-    let a = folder.record("a.csv", &viscous(76_005));
-    let b = folder.record("b.csv", &viscous(76_006));
+    let a = folder.planted("a.csv", &viscous(76_005));
+    let b = folder.planted("b.csv", &viscous(76_006));
     let (one, two) = (folder.path("one.csv"), folder.path("two.csv"));
     for trace in [&one, &two] {
-        said(&[
-            "identify",
-            &a,
-            &b,
-            "--max-terms",
-            "0",
-            "--per-file",
-            "gains",
-            "--trace",
-            trace,
-        ]);
+        said(&args(&format!(
+            "identify {a} {b} --max-terms 0 --per-file gains --trace {trace}"
+        )));
     }
     let trace = folder.read("one.csv");
     assert_eq!(trace, folder.read("two.csv"));
@@ -212,7 +157,7 @@ fn rounds_beyond_the_loops_own_are_refused() {
 #[ignore = "slow: bash .ci/run conclusions"]
 fn plan_and_power_take_the_rounds_too() {
     let folder = Folder::new();
-    let record = folder.record(
+    let record = folder.planted(
         "r.csv",
         &Recipe {
             seconds: 10.0,
@@ -220,16 +165,8 @@ fn plan_and_power_take_the_rounds_too() {
         },
     );
     said(&["plan", &record, "--max-terms", "0"]);
-    let power = json(&[
-        "power",
-        &record,
-        "--max-terms",
-        "0",
-        "--effects",
-        "drag-cubic",
-        "--trials",
-        "5",
-        "--json",
-    ]);
+    let power = json(&args(&format!(
+        "power {record} --max-terms 0 --effects drag-cubic --trials 5 --json"
+    )));
     assert_eq!(power["schema"], "bowden.power/1");
 }

@@ -1,7 +1,6 @@
 //! What `bowden validate` does not take: one line, status 2.
 
-use crate::ways::rig::Folder;
-use crate::shell::{refused, said};
+use crate::shell::{args, refused, said, Folder};
 use bowden_synth::{Mode, Planted, Recipe};
 
 fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
@@ -10,18 +9,11 @@ fn model(folder: &Folder, mode: Mode, declare: &str) -> (String, String) {
         seconds: 10.0,
         ..Recipe::of_one_rig(mode, 75_000)
     };
-    let record = folder.record("own.csv", &recipe);
+    let record = folder.planted("own.csv", &recipe);
     let model = folder.path("model.toml");
-    said(&[
-        "identify",
-        &record,
-        "--max-terms",
-        "0",
-        "--baseline",
-        declare,
-        "--model-out",
-        &model,
-    ]);
+    said(&args(&format!(
+        "identify {record} --max-terms 0 --baseline {declare} --model-out {model}"
+    )));
     (model, record)
 }
 
@@ -90,7 +82,7 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
     );
     said(&["validate", &model, &without, "--channel", "phi_p=angle"]);
 
-    let other = folder.record(
+    let other = folder.planted(
         "other.csv",
         &Recipe {
             seconds: 10.0,
@@ -143,9 +135,9 @@ fn units_are_converted_or_refused() {
     let folder = Folder::new();
     let (model, record) = model(&folder, Mode::Displacement, "bouc-wen,viscous");
     let json = |path: &str| -> serde_json::Value {
-        serde_json::from_str(&said(&[
-            "validate", &model, path, "--json", "--cutoff", "8",
-        ]))
+        serde_json::from_str(&said(&args(&format!(
+            "validate {model} {path} --json --cutoff 8"
+        ))))
         .unwrap()
     };
     let own = json(&record);
