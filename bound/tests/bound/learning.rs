@@ -1,7 +1,7 @@
 //! Convergence of learning: what is proved, against the frequency response by other means and
 //! against the controllers that ship on simulated plants.
 
-use super::simulated::{at, One, Simulated, DT};
+use super::simulated::{at, One, Simulated, BASE, DT};
 use super::Random;
 use bowden::control::{
     IterativeLearning, IterativeLearningInput, Pid, PidInput, PidSettings, PidState,
@@ -11,15 +11,6 @@ use bowden_bound::{Interval, IterativeLearningConvergence, PlantRange};
 use core::f64::consts::{PI, TAU};
 
 const CELLS: usize = 250;
-
-const BASE: One = One {
-    gain: 0.6,
-    wn: 25.5,
-    zeta: 0.265,
-    joint: 0.0033,
-    slope: 1.0,
-    late: 15,
-};
 
 fn pi(k_p: f64, k_i: f64) -> Pid<f64> {
     Pid::try_new(PidSettings::unlimited(k_p, k_i)).unwrap()

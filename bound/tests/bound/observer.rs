@@ -1,7 +1,7 @@
 //! Stability with a disturbance observer: what is proved, against the controllers that ship on
 //! simulated plants.
 
-use super::simulated::{at, One, Simulated, DT};
+use super::simulated::{at, One, Simulated, BASE, DT};
 use bowden::control::{
     DisturbanceObserver, NominalPlant, ObserverInput, ObserverState, Pid, PidInput, PidSettings,
     PidState,
@@ -64,14 +64,6 @@ fn settles(observer: &DisturbanceObserver<f64>, law: &Pid<f64>, plant: One) -> b
 /// and a sample of delay.
 #[test]
 fn of_single_plants_the_edge_of_the_proof_is_the_edge_of_stability() {
-    let base = One {
-        gain: 0.6,
-        wn: 25.5,
-        zeta: 0.265,
-        joint: 0.0033,
-        slope: 1.0,
-        late: 15,
-    };
     type Along = (&'static str, fn(One, f64) -> One, f64, f64);
     let along: [Along; 3] = [
         ("gain", |p, x| One { gain: 0.6 * x, ..p }, 1.0, 100.0),
@@ -90,7 +82,7 @@ fn of_single_plants_the_edge_of_the_proof_is_the_edge_of_stability() {
         let (observer, law) = loops(0.016, 0.003, k_p, k_i);
         for (name, plant, low, high) in along {
             let proved =
-                |x: f64| ObserverStability::try_new(&observer, &law, &at(plant(base, x))).is_ok();
+                |x: f64| ObserverStability::try_new(&observer, &law, &at(plant(BASE, x))).is_ok();
             assert!(proved(low) && !proved(high), "{name} {k_p}");
             let (mut good, mut bad) = (low, high);
             while bad - good > 0.002 {
@@ -102,8 +94,8 @@ fn of_single_plants_the_edge_of_the_proof_is_the_edge_of_stability() {
                 }
             }
             // Whole samples of delay are two or three hundredths of it.
-            let inside = plant(base, 1.0 + (good - 1.0) * 0.92);
-            let outside = plant(base, 1.0 + (good - 1.0) * 1.08 + 0.04);
+            let inside = plant(BASE, 1.0 + (good - 1.0) * 0.92);
+            let outside = plant(BASE, 1.0 + (good - 1.0) * 1.08 + 0.04);
             assert!(
                 settles(&observer, &law, inside),
                 "{name} {k_p} {good} {inside:?}"
@@ -166,97 +158,53 @@ proptest! {
 
 #[test]
 fn what_is_no_range_or_no_loop_is_refused_by_name() {
-    let one = One {
-        gain: 0.6,
-        wn: 25.5,
-        zeta: 0.265,
-        joint: 0.0033,
-        slope: 1.0,
-        late: 10,
-    };
     let (observer, law) = loops(0.016, 0.003, 12.0, 60.0);
-    let refused = |range: PlantRange| ObserverStability::try_new(&observer, &law, &range).err();
-    let inadmissible = |what| Some(Error::Inadmissible(what));
-    let good = at(one);
-    assert_eq!(refused(good), None);
-    let interval = |low: f64, high: f64| Interval { low, high };
-    assert_eq!(
-        refused(PlantRange {
-            gain: interval(-0.1, 0.6),
-            ..good
+    let good = at(One { late: 10, ..BASE });
+    let refused = |law: &Pid<f64>, spoil: fn(&mut PlantRange)| {
+        let mut range = good;
+        spoil(&mut range);
+        ObserverStability::try_new(&observer, law, &range).err()
+    };
+    assert_eq!(refused(&law, |_| {}), None);
+    let one_sign = "gain and nominal gain must have the same sign";
+    let cases: [(Error, fn(&mut PlantRange)); 7] = [
+        (Error::OutOfRange("gain"), |r| r.gain.low = -0.1),
+        (Error::OutOfRange("natural_frequency"), |r| {
+            r.natural_frequency.low = r.natural_frequency.high + 1.0;
         }),
-        Some(Error::OutOfRange("gain"))
-    );
-    assert_eq!(
-        refused(PlantRange {
-            natural_frequency: interval(30.0, 20.0),
-            ..good
+        (Error::OutOfRange("damping_ratio"), |r| {
+            r.damping_ratio.low = -0.1
         }),
-        Some(Error::OutOfRange("natural_frequency"))
-    );
-    assert_eq!(
-        refused(PlantRange {
-            damping_ratio: interval(-0.1, 0.3),
-            ..good
+        (Error::NonFinite("joint"), |r| r.joint.low = f64::NAN),
+        (Error::OutOfRange("slope"), |r| r.slope.low = 0.0),
+        (Error::OutOfRange("latency"), |r| r.latency.low = -1e-3),
+        (Error::Inadmissible(one_sign), |r| {
+            (r.gain.low, r.gain.high) = (-0.7, -0.5);
         }),
-        Some(Error::OutOfRange("damping_ratio"))
-    );
-    assert_eq!(
-        refused(PlantRange {
-            joint: interval(f64::NAN, 0.3),
-            ..good
-        }),
-        Some(Error::NonFinite("joint"))
-    );
-    assert_eq!(
-        refused(PlantRange {
-            slope: interval(0.0, 1.0),
-            ..good
-        }),
-        Some(Error::OutOfRange("slope"))
-    );
-    assert_eq!(
-        refused(PlantRange {
-            latency: interval(-1e-3, 0.3),
-            ..good
-        }),
-        Some(Error::OutOfRange("latency"))
-    );
-    assert_eq!(
-        refused(PlantRange {
-            gain: interval(-0.7, -0.5),
-            ..good
-        }),
-        inadmissible("gain and nominal gain must have the same sign")
-    );
-    let law =
-        |settings| ObserverStability::try_new(&observer, &Pid::try_new(settings).unwrap(), &good);
-    let derivative = PidSettings {
+    ];
+    for (error, spoil) in cases {
+        assert_eq!(refused(&law, spoil), Some(error));
+    }
+    let damped = PidSettings {
         k_d: 1.0,
         derivative_time: 0.01,
         ..PidSettings::unlimited(12.0, 60.0)
     };
-    assert_eq!(
-        law(derivative).err(),
-        inadmissible("the law must be a P or a PI")
-    );
     // Routh: 2·zeta/wn·(1 + alpha·k_p) against alpha·k_i/wn².
-    assert_eq!(
-        law(PidSettings::unlimited(12.0, 300.0)).err(),
-        inadmissible("the nominal loop without latency must be stable")
-    );
+    for (settings, condition) in [
+        (damped, "the law must be a P or a PI"),
+        (
+            PidSettings::unlimited(12.0, 300.0),
+            "the nominal loop without latency must be stable",
+        ),
+    ] {
+        let law = Pid::try_new(settings).unwrap();
+        assert_eq!(refused(&law, |_| {}), Some(Error::Inadmissible(condition)));
+    }
 }
 
 #[test]
 fn the_reference_rig_has_room_where_the_nominal_wn_is_low_rather_than_high() {
-    let one = One {
-        gain: 0.6,
-        wn: 25.5,
-        zeta: 0.265,
-        joint: 0.0033,
-        slope: 1.0,
-        late: 15,
-    };
     let (observer, law) = loops(0.0159, 0.003, 12.0, 60.0);
     let proved = |low: f64, high: f64| {
         let natural_frequency = Interval {
@@ -268,7 +216,7 @@ fn the_reference_rig_has_room_where_the_nominal_wn_is_low_rather_than_high() {
             &law,
             &PlantRange {
                 natural_frequency,
-                ..at(one)
+                ..at(BASE)
             },
         )
         .is_ok()
@@ -279,18 +227,10 @@ fn the_reference_rig_has_room_where_the_nominal_wn_is_low_rather_than_high() {
 /// 3 ms of lead in the joint make up for 3 ms of latency: without it the same loop swings up.
 #[test]
 fn the_joints_damping_is_what_the_latency_needs() {
-    let one = One {
-        gain: 0.6,
-        wn: 25.5,
-        zeta: 0.265,
-        joint: 0.0033,
-        slope: 1.0,
-        late: 15,
-    };
     let (observer, law) = loops(0.0159, 0.003, 12.0, 60.0);
-    let without = One { joint: 0.0, ..one };
+    let without = One { joint: 0.0, ..BASE };
     let proved = |plant| ObserverStability::try_new(&observer, &law, &at(plant)).is_ok();
-    assert!(proved(one) && settles(&observer, &law, one));
+    assert!(proved(BASE) && settles(&observer, &law, BASE));
     let grown = peaks(&observer, &law, without, 8);
     assert!(!proved(without) && (grown.len() < 8 || grown[7] > grown[1]));
 }

@@ -2,7 +2,7 @@
 
 use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
 use bowden::Error;
-use bowden_bound::{Interval, Known, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1};
+use bowden_bound::{Interval, PeakContinuous, PeakSampled, PerStep, Plant, Rms, Theorem1};
 
 fn lag() -> AdaptiveSettings<f64, 1> {
     let form = Form::FirstOrder {
@@ -49,51 +49,35 @@ fn each_form_has_its_own_certificates() {
 
 #[test]
 fn a_plant_that_is_none_is_named() {
-    let at = |plant| PeakSampled::try_new(&law(lag()), &plant).err();
-    let good = Plant::new(1.0, 5.0);
-    let alpha = Interval {
-        low: 0.0,
-        high: 1.0,
-    };
-    assert_eq!(
-        at(Plant { alpha, ..good }),
-        Some(Error::OutOfRange("alpha"))
-    );
-    let nan = Plant {
-        delta: f64::NAN,
-        ..good
-    };
-    assert_eq!(at(nan), Some(Error::NonFinite("delta")));
-    let negative = Plant {
-        reference: -1.0,
-        ..good
-    };
-    assert_eq!(at(negative), Some(Error::OutOfRange("reference")));
-    let theta = Interval {
-        low: 1.0,
-        high: 0.0,
-    };
-    let regressors = [Known {
-        theta,
-        ..Known::default()
-    }];
-    assert_eq!(
-        at(Plant { regressors, ..good }),
-        Some(Error::OutOfRange("theta"))
-    );
+    let cases: [(Error, fn(&mut Plant<f64, 1>)); 4] = [
+        (Error::OutOfRange("alpha"), |p| p.alpha.low = 0.0),
+        (Error::NonFinite("delta"), |p| p.delta = f64::NAN),
+        (Error::OutOfRange("reference"), |p| p.reference = -1.0),
+        (Error::OutOfRange("theta"), |p| {
+            p.regressors[0].theta.low = 1.0
+        }),
+    ];
+    for (error, spoil) in cases {
+        let mut plant = Plant::new(1.0, 5.0);
+        spoil(&mut plant);
+        assert_eq!(PeakSampled::try_new(&law(lag()), &plant).err(), Some(error));
+    }
 }
 
 #[test]
 fn an_assumption_that_can_be_checked_is_checked() {
     let unmet = |condition| Some(Error::Inadmissible(condition));
     let plant = Plant::new(1.0, 5.0);
-    let tight = AdaptiveSettings {
-        delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(0.1, 0.01),
-        ..literal()
+    let with_alpha = |alpha| Plant {
+        alpha: Interval::exactly(alpha),
+        ..plant
     };
+    let mut tight = literal();
+    tight.delta = Estimator::fixed(1.0).within(0.0, 4.0).adapting(0.1, 0.01);
+    let condition = "each box must contain the truth";
     assert_eq!(
         Theorem1::try_new(&law(tight), &plant).err(),
-        unmet("each box must contain the truth")
+        unmet(condition)
     );
     // The RMS certificate aims delta_hat at 4 and pays for the rest.
     assert!(Rms::try_new(&law(tight), &plant).unwrap().target <= 4.0);
@@ -102,56 +86,35 @@ fn an_assumption_that_can_be_checked_is_checked() {
         ..literal()
     };
     let condition = "an estimate must adapt or be the truth";
-    let off = Plant {
-        alpha: Interval::exactly(0.98),
-        ..plant
-    };
-    assert_eq!(Rms::try_new(&law(frozen), &off).err(), unmet(condition));
+    let off = Rms::try_new(&law(frozen), &with_alpha(0.98)).err();
+    assert_eq!(off, unmet(condition));
     assert!(Rms::try_new(&law(frozen), &plant).is_ok());
-    let strong = Plant {
-        alpha: Interval::exactly(1.01),
-        ..plant
-    };
-    let condition = "alpha <= plant_gain of the lag form";
-    assert_eq!(
-        PeakSampled::try_new(&law(lag()), &strong).err(),
-        unmet(condition)
-    );
+    let mut moving = plant;
+    moving.regressors[0].magnitude = 1.0;
     let short = AdaptiveSettings {
         z_limit: 0.01,
         ..lag()
     };
-    assert_eq!(
-        PeakSampled::try_new(&law(short), &plant).err(),
-        unmet("z_limit >= S/lambda")
-    );
     let soft = AdaptiveSettings {
         gain: 0.01,
         ..lag()
     };
-    assert_eq!(
-        PeakSampled::try_new(&law(soft), &plant).err(),
-        unmet("k > 1/lambda²")
-    );
-    let condition = "the boxes must be narrow enough for a finite bound";
-    let regressors = [Known {
-        magnitude: 1.0,
-        ..Known::default()
-    }];
-    let moving = Plant {
-        regressors,
-        ..plant
-    };
-    let wide = AdaptiveSettings {
-        theta: [Estimator::free(0.0).adapting(0.1, 0.01)],
-        ..lag()
-    };
-    assert_eq!(
-        PeakSampled::try_new(&law(wide), &moving).err(),
-        unmet(condition)
-    );
-    assert!(
-        PeakSampled::try_new(&law(wide), &plant).is_ok(),
-        "x is always zero"
-    );
+    let mut wide = lag();
+    wide.theta = [Estimator::free(0.0).adapting(0.1, 0.01)];
+    let narrow = "the boxes must be narrow enough for a finite bound";
+    for (settings, plant, condition) in [
+        (
+            lag(),
+            with_alpha(1.01),
+            "alpha <= plant_gain of the lag form",
+        ),
+        (short, plant, "z_limit >= S/lambda"),
+        (soft, plant, "k > 1/lambda²"),
+        (wide, moving, narrow),
+    ] {
+        let error = PeakSampled::try_new(&law(settings), &plant).err();
+        assert_eq!(error, unmet(condition));
+    }
+    let without = PeakSampled::try_new(&law(wide), &plant);
+    assert!(without.is_ok(), "x is always zero");
 }

@@ -269,103 +269,58 @@ fn an_update_that_overflows_is_refused() {
 
 #[test]
 fn a_certificate_that_cannot_be_stated_names_the_reason() {
-    let plant = own_plant();
-    let examined = |settings: AdaptiveSettings<f32, 2>| PeakRounded::examine(&settings, &plant);
-    let good = own::<f32>();
-    let literal = Form::AsPublished { time_constant: 0.0 };
-    let cases = [
+    type Settings = AdaptiveSettings<f32, 2>;
+    let (good, plant) = (own::<f32>(), own_plant());
+    let literal = |s: &mut Settings| s.form = Form::AsPublished { time_constant: 0.0 };
+    let cases: [(Error, fn(&mut Settings)); 5] = [
         (
-            AdaptiveSettings {
-                form: literal,
-                ..good
-            },
             Error::Inadmissible("the gains must have the lag form"),
+            literal,
         ),
-        (
-            AdaptiveSettings {
-                gain: f32::NAN,
-                ..good
-            },
-            Error::NonFinite("gain"),
-        ),
-        (
-            AdaptiveSettings {
-                epsilon: 0.0,
-                ..good
-            },
-            Error::OutOfRange("epsilon"),
-        ),
-        (
-            AdaptiveSettings {
-                longest_dt: 1e-4,
-                ..good
-            },
-            Error::Inadmissible("longest_dt >= step"),
-        ),
-        (
-            AdaptiveSettings {
-                beta: Estimator::fixed(-1.0),
-                ..good
-            },
-            Error::Inadmissible("beta.low > 0"),
-        ),
+        (Error::NonFinite("gain"), |s| s.gain = f32::NAN),
+        (Error::OutOfRange("epsilon"), |s| s.epsilon = 0.0),
+        (Error::Inadmissible("longest_dt >= step"), |s| {
+            s.longest_dt = 1e-4
+        }),
+        (Error::Inadmissible("beta.low > 0"), |s| {
+            s.beta = Estimator::fixed(-1.0)
+        }),
     ];
-    for (settings, error) in cases {
-        assert_eq!(examined(settings).map(|_| ()), Err(error));
+    for (error, spoil) in cases {
+        let mut settings = good;
+        spoil(&mut settings);
+        assert_eq!(PeakRounded::examine(&settings, &plant).err(), Some(error));
     }
     let many = Plant::<f64, 17>::new(1.0, 6.0);
-    let error = PeakRounded::examine(&table_2::<f32, 17>(0.1), &many).map(|_| ());
-    assert_eq!(error, Err(Error::Capacity("regressors")));
-    let wrong = Plant {
-        delta: f64::NAN,
-        ..plant
-    };
-    assert_eq!(
-        PeakRounded::examine(&good, &wrong).map(|_| ()),
-        Err(Error::NonFinite("delta"))
-    );
+    let error = PeakRounded::examine(&table_2::<f32, 17>(0.1), &many).err();
+    assert_eq!(error, Some(Error::Capacity("regressors")));
+    let mut wrong = plant;
+    wrong.delta = f64::NAN;
+    let error = PeakRounded::examine(&good, &wrong).err();
+    assert_eq!(error, Some(Error::NonFinite("delta")));
     // A law that is refused has the inequality's text.
-    let law = Adaptive::try_new(AdaptiveSettings {
+    let short = Adaptive::try_new(Settings {
         z_limit: 0.25,
         ..good
     })
     .unwrap();
-    assert_eq!(
-        PeakRounded::try_new(&law, &plant).map(|_| ()),
-        Err(Error::Inadmissible("Z <= z_limit"))
-    );
+    let error = PeakRounded::try_new(&short, &plant).err();
+    assert_eq!(error, Some(Error::Inadmissible("Z <= z_limit")));
 }
 
 #[test]
 fn a_wider_world_needs_a_wider_box() {
     let least = |plant: &Plant<f64, 2>| proved(own::<f32>(), plant).s.high();
-    let plant = own_plant();
-    let reference = least(&plant);
-    for wider in [
-        Plant {
-            delta: 7.2,
-            ..plant
-        },
-        Plant {
-            delta_rate: 25.0,
-            ..plant
-        },
-        Plant {
-            reference: 26.0,
-            ..plant
-        },
-        Plant {
-            reference_rate: 25.0,
-            ..plant
-        },
-        Plant {
-            alpha: Interval {
-                low: 0.9,
-                high: 1.04,
-            },
-            ..plant
-        },
-    ] {
-        assert!(least(&wider) > reference, "{wider:?}");
+    let wider: [fn(&mut Plant<f64, 2>); 5] = [
+        |p| p.delta = 7.2,
+        |p| p.delta_rate = 25.0,
+        |p| p.reference = 26.0,
+        |p| p.reference_rate = 25.0,
+        |p| p.alpha.low = 0.9,
+    ];
+    for widen in wider {
+        let mut plant = own_plant();
+        widen(&mut plant);
+        assert!(least(&plant) > least(&own_plant()), "{plant:?}");
     }
 }

@@ -17,6 +17,16 @@ pub struct One {
     pub late: usize,
 }
 
+/// The reference rig's plant.
+pub const BASE: One = One {
+    gain: 0.6,
+    wn: 25.5,
+    zeta: 0.265,
+    joint: 0.0033,
+    slope: 1.0,
+    late: 15,
+};
+
 /// `f·alpha·(1 + c/K·s)/(f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1)` behind samples of delay, pushed at the
 /// start; by steps that are a tenth as long.
 pub struct Simulated {
