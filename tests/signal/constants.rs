@@ -1,5 +1,5 @@
 //! Configurations in flash: one of each compiles, and is what the run time makes.
-#![allow(clippy::cast_possible_truncation, clippy::unnecessary_cast)]
+#![allow(clippy::unnecessary_cast)]
 
 use bowden::hysteresis::BoucWen;
 use bowden::signal::{Biquad, Derivative, EdgeVelocity, LowPass, Plausible, Play, Ramp, Rates};

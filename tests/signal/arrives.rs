@@ -1,7 +1,6 @@
 //! What conditions a signal arrives where that is, in a computed time, after bad samples too.
 
 // Clippy's allowance covers the test functions, not what they share.
-#![allow(clippy::unwrap_used)]
 
 use bowden::signal::{Play, PlayState, Ramp, RampState, Rates, RatesState, RatesStatus};
 use bowden::Real;
