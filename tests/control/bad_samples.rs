@@ -17,62 +17,31 @@ fn good() -> PidInput<f64> {
 
 /// Every way in which a sample can be bad for a PIV, and how it is told.
 fn bad() -> Vec<(PidInput<f64>, Fault)> {
+    let with = |change: &dyn Fn(&mut PidInput<f64>), fault| {
+        let mut at = good();
+        change(&mut at);
+        (at, fault)
+    };
     let mut all = vec![
-        (PidInput { dt: 0.0, ..good() }, Fault::DtNotPositive),
-        (
-            PidInput {
-                dt: -1e-3,
-                ..good()
-            },
-            Fault::DtNotPositive,
-        ),
-        (
-            PidInput {
-                measured: f64::MAX,
-                reference: f64::MIN,
-                ..good()
-            },
+        with(&|at| at.dt = 0.0, Fault::DtNotPositive),
+        with(&|at| at.dt = -1e-3, Fault::DtNotPositive),
+        with(
+            &|at| (at.measured, at.reference) = (f64::MAX, f64::MIN),
             Fault::Overflow,
         ),
-        (
-            PidInput {
-                feed_forward: f64::MAX,
-                measured: -1e307,
-                ..good()
-            },
+        with(
+            &|at| (at.feed_forward, at.measured) = (f64::MAX, -1e307),
             Fault::Overflow,
         ),
     ];
     for not in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        all.push((PidInput { dt: not, ..good() }, Fault::Dt));
-        all.push((
-            PidInput {
-                reference: not,
-                ..good()
-            },
-            Fault::Reference,
-        ));
-        all.push((
-            PidInput {
-                measured: not,
-                ..good()
-            },
-            Fault::Measured,
-        ));
-        all.push((
-            PidInput {
-                velocity: not,
-                ..good()
-            },
-            Fault::Velocity,
-        ));
-        all.push((
-            PidInput {
-                feed_forward: not,
-                ..good()
-            },
-            Fault::FeedForward,
-        ));
+        all.extend([
+            with(&|at| at.dt = not, Fault::Dt),
+            with(&|at| at.reference = not, Fault::Reference),
+            with(&|at| at.measured = not, Fault::Measured),
+            with(&|at| at.velocity = not, Fault::Velocity),
+            with(&|at| at.feed_forward = not, Fault::FeedForward),
+        ]);
     }
     all
 }

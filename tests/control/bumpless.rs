@@ -85,37 +85,18 @@ fn a_start_from_something_that_is_no_number_is_refused_and_told() {
     pid.step_with_terms(&mut state, &at(0));
     let before = state;
     let nan = f64::NAN;
-    let mut refuses = |output, at: PidInput<f64>, fault| {
+    let mut refuses = |output, change: &dyn Fn(&mut PidInput<f64>), fault| {
+        let mut at = at(1);
+        change(&mut at);
         assert_eq!(state.resume_from(&pid, output, &at), Status::Held(fault));
         assert_eq!(state.integral(), before.integral());
         assert_eq!(pid.terms(&state), pid.terms(&before));
         assert_eq!(state.command(), before.command());
     };
-    refuses(nan, at(1), Fault::Command);
-    refuses(
-        1.0,
-        PidInput {
-            reference: nan,
-            ..at(1)
-        },
-        Fault::Reference,
-    );
-    refuses(
-        1.0,
-        PidInput {
-            velocity: nan,
-            ..at(1)
-        },
-        Fault::Velocity,
-    );
-    refuses(
-        f64::MAX,
-        PidInput {
-            feed_forward: f64::MIN,
-            ..at(1)
-        },
-        Fault::Overflow,
-    );
+    refuses(nan, &|_| (), Fault::Command);
+    refuses(1.0, &|at| at.reference = nan, Fault::Reference);
+    refuses(1.0, &|at| at.velocity = nan, Fault::Velocity);
+    refuses(f64::MAX, &|at| at.feed_forward = f64::MIN, Fault::Overflow);
 }
 
 /// Every pair of these settings must hand over to each other.

@@ -41,6 +41,33 @@ fn motion(t: f64, rate: f64) -> Motion<f64> {
     }
 }
 
+fn wish(desired: f64, channels: &[Motion<f64>]) -> CompensatorInput<'_, f64> {
+    CompensatorInput {
+        channels,
+        ..CompensatorInput::new(1e-3, desired)
+    }
+}
+
+/// The output of the model after a command.
+fn answer<const N: usize>(
+    model: &Model<f64, N>,
+    plant: &mut ModelState<f64, N>,
+    command: f64,
+    channels: &[Motion<f64>],
+) -> f64 {
+    let input = Motion {
+        position: command,
+        ..Motion::default()
+    };
+    let sample = Sample {
+        dt: 1e-3,
+        input,
+        load: command,
+        channels,
+    };
+    model.step(plant, &sample)
+}
+
 #[test]
 fn the_model_gives_the_desired_output_after_the_compensators_command() {
     let model = model();
@@ -50,24 +77,10 @@ fn the_model_gives_the_desired_output_after_the_compensators_command() {
         let t = 1e-3 * f64::from(k);
         let channels = [motion(t, 3.0), motion(t, 5.0)];
         let desired = 25.0 + 10.0 * (1.57 * t).sin() + 3.0 * (2.18 * t).sin();
-        let wish = CompensatorInput {
-            channels: &channels,
-            ..CompensatorInput::new(1e-3, desired)
-        };
-        let out = compensator.step(&mut state, &wish);
+        let out = compensator.step(&mut state, &wish(desired, &channels));
         assert_eq!(out.status, Status::Good);
 
-        let input = Motion {
-            position: out.command,
-            ..Motion::default()
-        };
-        let sample = Sample {
-            dt: 1e-3,
-            input,
-            load: out.command,
-            channels: &channels,
-        };
-        let got = model.step(&mut plant, &sample);
+        let got = answer(&model, &mut plant, out.command, &channels);
         // 16 epsilons of all magnitudes in the equation (Inverse::step), which are < 150.
         assert!(
             (got - desired).abs() < 16.0 * f64::EPSILON * 150.0,
@@ -129,20 +142,13 @@ fn the_nearest_model_tells_what_it_lowered_and_what_it_left_out() {
     for k in 0..1000 {
         let t = 1e-3 * f64::from(k);
         let channels = [motion(t, 3.0), motion(t, 5.0)];
-        let wish = CompensatorInput {
-            channels: &channels,
-            ..CompensatorInput::new(1e-3, 20.0 * (3.0 * t).sin())
-        };
+        let wish = wish(20.0 * (3.0 * t).sin(), &channels);
         let (a, b) = (compensator.step(&mut a, &wish), by_hand.step(&mut b, &wish));
         assert_eq!((a.command, a.effects), (b.command, b.effects));
     }
     // Terms keep their places: the fault's, too.
     let channels = [motion(0.0, 3.0)];
-    let blind = CompensatorInput {
-        channels: &channels,
-        ..CompensatorInput::new(1e-3, 1.0)
-    };
-    let status = compensator.step(&mut a, &blind).status;
+    let status = compensator.step(&mut a, &wish(1.0, &channels)).status;
     assert_eq!(status, Status::Held(Fault::Regressor(1)));
 }
 
@@ -168,60 +174,22 @@ fn a_knee_that_no_sigma_mends_is_made_rounder() {
 fn a_bad_sample_holds_the_command_and_the_state() {
     let compensator = Compensator::try_new(&model()).unwrap();
     let channels = [motion(0.3, 3.0), motion(0.3, 5.0)];
-    let good = CompensatorInput {
-        channels: &channels,
-        ..CompensatorInput::new(1e-3, 12.0)
-    };
+    let good = wish(12.0, &channels);
     let mut state = CompensatorState::new();
     compensator.step(&mut state, &good);
-    let before = compensator.step(
-        &mut state,
-        &CompensatorInput {
-            desired: 13.0,
-            ..good
-        },
-    );
+    let before = compensator.step(&mut state, &wish(13.0, &channels));
     let mut reference = state;
 
     let mut lost = channels;
     lost[1].acceleration = f64::NAN;
+    let dt = |dt| CompensatorInput { dt, ..good };
     for (bad, fault) in [
-        (
-            CompensatorInput {
-                dt: f64::NAN,
-                ..good
-            },
-            Fault::Dt,
-        ),
-        (CompensatorInput { dt: 0.0, ..good }, Fault::DtNotPositive),
-        (
-            CompensatorInput {
-                desired: f64::NAN,
-                ..good
-            },
-            Fault::Reference,
-        ),
-        (
-            CompensatorInput {
-                desired: f64::MAX,
-                ..good
-            },
-            Fault::Overflow,
-        ),
-        (
-            CompensatorInput {
-                channels: &lost,
-                ..good
-            },
-            Fault::Regressor(2),
-        ),
-        (
-            CompensatorInput {
-                channels: &channels[..1],
-                ..good
-            },
-            Fault::Regressor(2),
-        ),
+        (dt(f64::NAN), Fault::Dt),
+        (dt(0.0), Fault::DtNotPositive),
+        (wish(f64::NAN, &channels), Fault::Reference),
+        (wish(f64::MAX, &channels), Fault::Overflow),
+        (wish(12.0, &lost), Fault::Regressor(2)),
+        (wish(12.0, &channels[..1]), Fault::Regressor(2)),
     ] {
         let out = compensator.step(&mut state, &bad);
         assert_eq!(out.status, Status::Held(fault));
@@ -258,11 +226,8 @@ fn beyond_the_benchs_range_an_effect_is_what_it_is_at_the_range() {
             velocity: 0.0,
         };
         let channels = [Motion::default(), far];
-        let at = CompensatorInput {
-            channels: &channels,
-            ..CompensatorInput::new(1e-3, 5.0)
-        };
-        compensator.step(&mut CompensatorState::new(), &at).effects
+        let mut state = CompensatorState::new();
+        compensator.step(&mut state, &wish(5.0, &channels)).effects
     };
     assert_eq!(share(&bound, 7.0, -80.0), share(&compensator, 0.5, -9.0));
     assert_eq!(share(&bound, 0.2, 4.0), share(&compensator, 0.2, 4.0));
@@ -316,20 +281,10 @@ fn a_play_passes_over_small_reversals_and_the_output_stays_within_it() {
         for k in 0..4000 {
             let wobble = if k % 2 == 0 { 0.04 } else { -0.04 };
             let desired = 25.0 + 10.0 * (1.57e-3 * f64::from(k)).sin() + wobble;
-            let wish = CompensatorInput::new(1e-3, desired);
-            let out = compensator.step(&mut state, &wish);
+            let out = compensator.step(&mut state, &wish(desired, &[]));
             assert_eq!(out.status, Status::Good);
-            let input = Motion {
-                position: out.command,
-                ..Motion::default()
-            };
-            let sample = Sample {
-                dt: 1e-3,
-                input,
-                load: out.command,
-                channels: &[],
-            };
-            worst = worst.max((model.step(&mut plant, &sample) - desired).abs());
+            let got = answer(&model, &mut plant, out.command, &[]);
+            worst = worst.max((got - desired).abs());
             travel += if k > 0 {
                 (out.command - last).abs()
             } else {

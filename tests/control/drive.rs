@@ -138,12 +138,36 @@ fn what_the_drive_did_is_forgotten_with_the_next_good_sample() {
     assert_eq!(told, free);
 }
 
+#[test]
+fn a_law_whose_integral_fills_the_range_says_that_it_is_at_its_limit() {
+    // An integral alone, and a proportional term that falls as slowly as the integral may follow.
+    for k_p in [0.0, 0.1] {
+        let inner = Pid::try_new(law(k_p, 20.0, -3.0, 3.0)).unwrap();
+        let mut state = PidState::new();
+        for (way, at_limit) in [(1.0, Applied::AtUpperLimit), (-1.0, Applied::AtLowerLimit)] {
+            let mut samples = 0;
+            for k in 0..2000 {
+                let measured = way * 1e-3 * f64::from(k);
+                let at = PidInput::new(0.001, 5.0 * way, measured);
+                if inner.step(&mut state, &at).command == 3.0 * way {
+                    assert_eq!(inner.saturation(&state), at_limit);
+                    samples += 1;
+                } else {
+                    assert_eq!(inner.saturation(&state), Applied::AsCommanded);
+                }
+            }
+            // From one limit to the other: 6 at 20 times an error of 3 to 5, in 0.1 s at most.
+            assert!(samples >= 1900, "{k_p}: {samples}");
+        }
+    }
+}
+
 /// A cascade: the outer law asks for a speed, the inner one for a torque that is limited.
 #[test]
 fn an_outer_loop_does_not_wind_up_while_the_inner_one_is_at_its_limit() {
     let outer = Pid::try_new(law(1.0, 0.3, -50.0, 50.0)).unwrap();
-    let inner = Pid::try_new(law(1.0, 20.0, -3.0, 3.0)).unwrap();
-    let overshoot = |tell: bool| {
+    let overshoot = |k_p: f64, tell: bool| {
+        let inner = Pid::try_new(law(k_p, 20.0, -3.0, 3.0)).unwrap();
         let (mut out, mut inside) = (PidState::new(), PidState::new());
         let (mut position, mut speed, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
         for _ in 0..60_000 {
@@ -162,8 +186,11 @@ fn an_outer_loop_does_not_wind_up_while_the_inner_one_is_at_its_limit() {
         }
         (most - 20.0, position)
     };
-    let (untold, _) = overshoot(false);
-    let (told, end) = overshoot(true);
-    assert!(told < 0.5 * untold, "{told} {untold}");
-    assert!((end - 20.0).abs() < 0.01, "{end}");
+    // Also where the inner law is an integral alone.
+    for k_p in [1.0, 0.0] {
+        let (untold, _) = overshoot(k_p, false);
+        let (told, end) = overshoot(k_p, true);
+        assert!(told < 0.5 * untold, "{told} {untold}");
+        assert!(k_p == 0.0 || (end - 20.0).abs() < 0.01, "{end}");
+    }
 }

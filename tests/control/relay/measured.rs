@@ -101,31 +101,6 @@ fn the_describing_function_has_the_error_that_the_docs_state() {
     }
 }
 
-#[test]
-fn a_result_is_near_the_true_ultimate_gain_and_period() {
-    let plant = Plant::third_order();
-    let it = result::<f64>(usual(), &plant, &mut Sampled::every(0.01));
-    let (gain, w) = plant.ultimate();
-    // The describing function: −2 % and +1 %; the rest is the sampling, 4·dt/T = 1 %.
-    assert!((it.gain / gain - 1.0).abs() < 0.04, "{it:?}");
-    assert!((it.period * w / (2.0 * PI) - 1.0).abs() < 0.02, "{it:?}");
-}
-
-#[test]
-fn hysteresis_makes_the_result_cautious() {
-    let plant = Plant::third_order();
-    let mut before = result::<f64>(usual(), &plant, &mut Sampled::every(0.002));
-    for hysteresis in [0.02, 0.05, 0.1] {
-        let settings = RelaySettings {
-            hysteresis,
-            ..usual()
-        };
-        let it = result(settings, &plant, &mut Sampled::every(0.002));
-        assert!(it.gain < before.gain && it.period > before.period, "{it:?}");
-        before = it;
-    }
-}
-
 /// Noise up to the hysteresis: the relay does not chatter, and a is too high by one noise at most.
 #[test]
 fn noise_within_the_hysteresis_leaves_the_result() {
