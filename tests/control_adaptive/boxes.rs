@@ -1,6 +1,6 @@
 //! Estimates stay in their boxes, and the command in its limits, whatever comes.
 
-use super::{lag, literal};
+use super::{cast_estimator, lag, literal};
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Fault, Form,
     Leakage, Limits, SmoothSign, Status,
@@ -86,23 +86,6 @@ fn settings() -> impl Strategy<Value = AdaptiveSettings<f64, 2>> {
 
 /// The same settings in another precision.
 fn cast<T: Real>(from: &AdaptiveSettings<f64, 2>) -> AdaptiveSettings<T, 2> {
-    let estimator = |from: &Estimator<f64>| Estimator {
-        initial: T::from_f64(from.initial),
-        low: T::from_f64(from.low),
-        high: T::from_f64(from.high),
-        gain: T::from_f64(from.gain),
-        prior: T::from_f64(from.prior),
-        leakage: match from.leakage {
-            Leakage::None => Leakage::None,
-            Leakage::Constant { rate } => Leakage::Constant {
-                rate: T::from_f64(rate),
-            },
-            Leakage::Switching { rate, bound } => Leakage::Switching {
-                rate: T::from_f64(rate),
-                bound: T::from_f64(bound),
-            },
-        },
-    };
     let form = match from.form {
         Form::AsPublished { time_constant } => Form::AsPublished {
             time_constant: T::from_f64(time_constant),
@@ -115,9 +98,9 @@ fn cast<T: Real>(from: &AdaptiveSettings<f64, 2>) -> AdaptiveSettings<T, 2> {
     let gains = [from.gain, from.lambda, from.epsilon].map(T::from_f64);
     let mut to = AdaptiveSettings {
         smooth_sign: from.smooth_sign,
-        beta: estimator(&from.beta),
-        delta: estimator(&from.delta),
-        theta: [estimator(&from.theta[0]), estimator(&from.theta[1])],
+        beta: cast_estimator(&from.beta),
+        delta: cast_estimator(&from.delta),
+        theta: [&from.theta[0], &from.theta[1]].map(cast_estimator),
         z_limit: T::from_f64(from.z_limit),
         ..AdaptiveSettings::unlimited(form, gains[0], gains[1], gains[2])
     };
@@ -229,55 +212,21 @@ proptest! {
 fn each_bad_sample_is_named() {
     let law = Adaptive::try_new(literal()).unwrap();
     let good = AdaptiveInput::new(0.001, 3.0, 1.0, [0.5]);
-    let nan = f64::NAN;
-    let cases = [
-        (AdaptiveInput { dt: nan, ..good }, Fault::Dt),
-        (AdaptiveInput { dt: 0.0, ..good }, Fault::DtNotPositive),
-        (AdaptiveInput { dt: -0.1, ..good }, Fault::DtNotPositive),
-        (
-            AdaptiveInput {
-                reference: nan,
-                ..good
-            },
-            Fault::Reference,
-        ),
-        (
-            AdaptiveInput {
-                next_reference: f64::INFINITY,
-                ..good
-            },
-            Fault::Reference,
-        ),
-        (
-            AdaptiveInput {
-                measured: nan,
-                ..good
-            },
-            Fault::Measured,
-        ),
-        (
-            AdaptiveInput {
-                regressors: [nan],
-                ..good
-            },
-            Fault::Regressor(0),
-        ),
-        (
-            AdaptiveInput {
-                feed_forward: nan,
-                ..good
-            },
-            Fault::FeedForward,
-        ),
-        (
-            AdaptiveInput {
-                measured: f64::MAX,
-                ..good
-            },
-            Fault::Overflow,
-        ),
+    type Change = fn(&mut AdaptiveInput<f64, 1>);
+    let cases: [(Change, Fault); 9] = [
+        (|at| at.dt = f64::NAN, Fault::Dt),
+        (|at| at.dt = 0.0, Fault::DtNotPositive),
+        (|at| at.dt = -0.1, Fault::DtNotPositive),
+        (|at| at.reference = f64::NAN, Fault::Reference),
+        (|at| at.next_reference = f64::INFINITY, Fault::Reference),
+        (|at| at.measured = f64::NAN, Fault::Measured),
+        (|at| at.regressors = [f64::NAN], Fault::Regressor(0)),
+        (|at| at.feed_forward = f64::NAN, Fault::FeedForward),
+        (|at| at.measured = f64::MAX, Fault::Overflow),
     ];
-    for (bad, fault) in cases {
+    for (change, fault) in cases {
+        let mut bad = good;
+        change(&mut bad);
         let mut state = AdaptiveState::new(&law);
         law.step_with_terms(&mut state, &good);
         let mut twin = state;

@@ -150,13 +150,4 @@ proptest! {
         let published = law::damped(p, z, -y_r_rate, lambda);
         prop_assert_eq!(law::first_order_damped(p, z, y_r_rate, lambda), published);
     }
-
-    /// Both smooth signs are odd, within ±1 and below the line x.
-    #[test]
-    fn smooth_signs_lie_between_zero_and_the_sign(x in -100.0_f64..100.0) {
-        for sign in [law::smooth_sign::<f64>, law::clamped_sign] {
-            prop_assert_eq!(sign(-x), -sign(x));
-            prop_assert!(sign(x) * x >= 0.0 && sign(x).abs() <= x.abs().min(1.0));
-        }
-    }
 }

@@ -58,77 +58,30 @@ fn the_papers_settings_are_admissible_as_they_are() {
 
 #[test]
 fn a_refusal_says_which_setting_or_condition() {
-    let refused = |settings| Adaptive::try_new(settings).err();
-    let lag = lag();
-    let out = |name| Some(Error::OutOfRange(name));
-    let unmet = |condition| Some(Error::Inadmissible(condition));
-    assert_eq!(refused(AdaptiveSettings { gain: 0.0, ..lag }), out("gain"));
-    let nan = AdaptiveSettings {
-        lambda: f64::NAN,
-        ..lag
-    };
-    assert_eq!(refused(nan), Some(Error::NonFinite("lambda")));
-    assert_eq!(
-        refused(AdaptiveSettings {
-            epsilon: -1.0,
-            ..lag
-        }),
-        out("epsilon")
-    );
-    let theta = [Estimator::fixed(9.0).within(-5.0, 5.0)];
-    assert_eq!(
-        refused(AdaptiveSettings { theta, ..lag }),
-        out("theta.initial")
-    );
-    let delta = Estimator {
-        gain: -1.0,
-        ..lag.delta
-    };
-    assert_eq!(
-        refused(AdaptiveSettings { delta, ..lag }),
-        out("delta.gain")
-    );
-    let leakage = Leakage::Switching {
-        rate: 0.1,
-        bound: 0.0,
-    };
-    let beta = Estimator {
-        leakage,
-        ..lag.beta
-    };
-    assert_eq!(
-        refused(AdaptiveSettings { beta, ..lag }),
-        out("beta.leakage.bound")
-    );
-    let beta = Estimator::fixed(1.0).within(0.0, 1.1);
-    let condition = "lag form: beta.low > 0";
-    assert_eq!(refused(AdaptiveSettings { beta, ..lag }), unmet(condition));
-    let delta = Estimator::fixed(1.0).within(-1.0, 7.0);
-    let condition = "lag form: delta.low >= 0";
-    assert_eq!(refused(AdaptiveSettings { delta, ..lag }), unmet(condition));
-    let form = Form::FirstOrder {
-        step: 0.5,
-        plant_gain: 1e-3,
-    };
-    let condition = "lag form: h*lambda <= 1";
-    assert_eq!(refused(AdaptiveSettings { form, ..lag }), unmet(condition));
-    let sharp = AdaptiveSettings {
-        epsilon: 0.05,
-        ..lag
-    };
-    let condition = "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1";
-    assert_eq!(refused(sharp), unmet(condition));
-    let fallback = Fallback::try_new(3, 50.0).unwrap();
-    let limits = Limits::try_new(-10.0, 10.0).unwrap();
-    let condition = "the safe command lies within the limits";
-    assert_eq!(
-        refused(AdaptiveSettings {
-            fallback,
-            limits,
-            ..lag
-        }),
-        unmet(condition)
-    );
+    use Error::{Inadmissible, NonFinite, OutOfRange};
+    type Change = fn(&mut AdaptiveSettings<f64, 1>);
+    #[rustfmt::skip]
+    let cases: [(Change, Error); 11] = [
+        (|s| s.gain = 0.0, OutOfRange("gain")),
+        (|s| s.lambda = f64::NAN, NonFinite("lambda")),
+        (|s| s.epsilon = -1.0, OutOfRange("epsilon")),
+        (|s| s.theta = [Estimator::fixed(9.0).within(-5.0, 5.0)], OutOfRange("theta.initial")),
+        (|s| s.delta.gain = -1.0, OutOfRange("delta.gain")),
+        (|s| s.beta.leakage = Leakage::Switching { rate: 0.1, bound: 0.0 }, OutOfRange("beta.leakage.bound")),
+        (|s| s.beta = Estimator::fixed(1.0).within(0.0, 1.1), Inadmissible("lag form: beta.low > 0")),
+        (|s| s.delta = Estimator::fixed(1.0).within(-1.0, 7.0), Inadmissible("lag form: delta.low >= 0")),
+        (|s| s.form = Form::FirstOrder { step: 0.5, plant_gain: 1e-3 }, Inadmissible("lag form: h*lambda <= 1")),
+        (|s| s.epsilon = 0.05, Inadmissible("lag form: h*lambda*g*(k + delta.high/epsilon) <= 1")),
+        (|s| {
+            s.fallback = Fallback::try_new(3, 50.0).unwrap();
+            s.limits = Limits::try_new(-10.0, 10.0).unwrap();
+        }, Inadmissible("the safe command lies within the limits")),
+    ];
+    for (change, error) in cases {
+        let mut settings = lag();
+        change(&mut settings);
+        assert_eq!(Adaptive::try_new(settings).err(), Some(error));
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What the law must do: it reaches its limits, it comes back, what waits moves again.
 
-use super::{lag, literal};
+use super::{cast_estimator, lag, literal};
 use bowden::control::{
     Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Fault, Form,
     Leakage, Limits, OnMissing, SmoothSign, Status,
@@ -57,26 +57,6 @@ fn estimator(low: f64, high: f64) -> impl Strategy<Value = Estimator<f64>> {
             ..Estimator::fixed(at(start)).within(low, high)
         }
     })
-}
-
-fn cast<T: Real>(e: &Estimator<f64>) -> Estimator<T> {
-    let (low, high) = (T::from_f64(e.low), T::from_f64(e.high));
-    let initial = bowden::signal::clamp(T::from_f64(e.initial), low, high);
-    Estimator {
-        gain: T::from_f64(e.gain),
-        leakage: match e.leakage {
-            Leakage::None => Leakage::None,
-            Leakage::Constant { rate } => Leakage::Constant {
-                rate: T::from_f64(rate),
-            },
-            Leakage::Switching { rate, bound } => Leakage::Switching {
-                rate: T::from_f64(rate),
-                bound: T::from_f64(bound),
-            },
-        },
-        prior: T::from_f64(e.prior),
-        ..Estimator::fixed(initial).within(low, high)
-    }
 }
 
 /// A range, which the slew rate takes so many seconds to go through.
@@ -144,9 +124,9 @@ fn journey<T: Real>(is_lag: bool) -> impl Strategy<Value = Journey<T>> {
             let limits = limited(low, high, slew.map(|samples| samples * dt));
             let settings = AdaptiveSettings {
                 smooth_sign,
-                beta: cast(&beta),
-                delta: cast(&delta),
-                theta: [cast(&theta_0), cast(&theta_1)],
+                beta: cast_estimator(&beta),
+                delta: cast_estimator(&delta),
+                theta: [cast_estimator(&theta_0), cast_estimator(&theta_1)],
                 z_limit: z_limit.map_or(T::HIGHEST, T::from_f64),
                 ..AdaptiveSettings::new(
                     form,
@@ -459,27 +439,4 @@ fn in_f32_the_accumulated_error_moves_by_changes_below_its_rounding() {
         // To that distance at both ends, and the rounding of 1e-4·1e-3.
         assert!((moved - 0.01).abs() < 2e-6, "{moved}");
     }
-}
-
-#[test]
-fn in_f32_the_lag_arrives_by_changes_below_its_rounding() {
-    let form = Form::FirstOrder {
-        step: 1e-4,
-        plant_gain: 1.0,
-    };
-    let settings = AdaptiveSettings::<f32, 0>::unlimited(form, 0.5, 1.0, 0.2);
-    let law = Adaptive::try_new(settings).unwrap();
-    let at = AdaptiveInput::new(1e-4, 50.0, 50.0, []);
-    let mut state = AdaptiveState::resume_from(&law, 50.0, &at);
-    // The target moves by 0.01: at first by 1e-6 a sample, a quarter of the distance of two floats.
-    let at = AdaptiveInput::new(1e-4, 50.01, 50.01, []);
-    for _ in 0..150_000 {
-        law.step(&mut state, &at);
-    }
-    // e^-15 of the way is left, and one such distance.
-    assert!(
-        (state.command() - 50.01).abs() < 8e-6,
-        "{}",
-        state.command()
-    );
 }

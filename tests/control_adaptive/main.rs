@@ -14,7 +14,8 @@ mod line;
 mod liveness;
 mod told;
 
-use bowden::control::{AdaptiveSettings, Estimator, Form};
+use bowden::control::{AdaptiveSettings, Estimator, Form, Leakage};
+use bowden::Real;
 
 /// A lag form at 1 kHz that the box theorem covers: g within 0.9 to 1.1.
 fn lag() -> AdaptiveSettings<f64, 1> {
@@ -41,6 +42,27 @@ fn literal() -> AdaptiveSettings<f64, 1> {
             time_constant: 0.002,
         },
         ..lag()
+    }
+}
+
+/// An estimator in another precision, its start in its box.
+fn cast_estimator<T: Real>(from: &Estimator<f64>) -> Estimator<T> {
+    let (low, high) = (T::from_f64(from.low), T::from_f64(from.high));
+    let initial = bowden::signal::clamp(T::from_f64(from.initial), low, high);
+    Estimator {
+        gain: T::from_f64(from.gain),
+        prior: T::from_f64(from.prior),
+        leakage: match from.leakage {
+            Leakage::None => Leakage::None,
+            Leakage::Constant { rate } => Leakage::Constant {
+                rate: T::from_f64(rate),
+            },
+            Leakage::Switching { rate, bound } => Leakage::Switching {
+                rate: T::from_f64(rate),
+                bound: T::from_f64(bound),
+            },
+        },
+        ..Estimator::fixed(initial).within(low, high)
     }
 }
 

@@ -182,21 +182,6 @@ fn the_lag_continues_from_the_command_that_went_out_less_the_feed_forward() {
 }
 
 #[test]
-fn after_a_reset_the_lag_continues_from_the_command_that_is_out() {
-    let law = Adaptive::try_new(lag()).unwrap();
-    let mut state =
-        AdaptiveState::resume_from(&law, 25.0, &AdaptiveInput::new(0.001, 25.0, 25.0, [0.0]));
-    state.reset(&law);
-    let terms = law
-        .step_with_terms(&mut state, &AdaptiveInput::new(0.001, 25.0, 25.0, [0.0]))
-        .terms;
-    assert!(
-        (terms.law - (25.0 + 0.008 * (terms.beta_hat * terms.virtual_command - 25.0))).abs()
-            < ROUNDING
-    );
-}
-
-#[test]
 fn what_is_no_number_or_no_news_changes_nothing() {
     for is_lag in [false, true] {
         let law = Adaptive::try_new(settings(is_lag)).unwrap();
