@@ -10,26 +10,6 @@ fn good() -> AdaptiveInput<f64, 1> {
     AdaptiveInput::new(DT, 25.0, 24.5, [0.2])
 }
 
-fn bad() -> AdaptiveInput<f64, 1> {
-    AdaptiveInput {
-        measured: f64::NAN,
-        ..good()
-    }
-}
-
-#[test]
-fn a_state_of_a_wider_law_commands_no_more_than_the_limits_of_the_law_that_steps() {
-    for lag in [false, true] {
-        let wide = Adaptive::try_new(law(lag, 100.0)).unwrap();
-        let narrow = Adaptive::try_new(law(lag, 20.0)).unwrap();
-        let mut state = AdaptiveState::resume_from(&wide, 100.0, &good());
-        assert_eq!(state.command(), 100.0);
-        let out = narrow.step(&mut state, &bad());
-        assert_eq!(out.status, Status::Held(Fault::Measured));
-        assert_eq!(out.command, 20.0);
-    }
-}
-
 #[test]
 fn the_rate_of_the_error_bridges_bad_samples() {
     // An error that rises by 2 N·m/s, with 15 samples lost: the rate after them is still 2.
@@ -122,20 +102,6 @@ fn a_nan_encoder_that_may_be_dropped_leaves_the_torque_loop_closed() {
         let out = law.step(&mut state, &deaf);
         assert_eq!(out.status, Status::Held(Fault::Measured));
     }
-}
-
-#[test]
-fn a_nan_encoder_holds_everything_where_nothing_else_was_said() {
-    let law = Adaptive::try_new(law(false, 100.0)).unwrap();
-    let mut state = AdaptiveState::new(&law);
-    let before = law.step(&mut state, &good()).command;
-    let blind = AdaptiveInput {
-        regressors: [f64::NAN],
-        ..good()
-    };
-    let out = law.step(&mut state, &blind);
-    assert_eq!(out.status, Status::Held(Fault::Regressor(0)));
-    assert_eq!(out.command, before);
 }
 
 #[test]

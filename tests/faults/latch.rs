@@ -21,28 +21,33 @@ fn steps<C: Controller<f64>>(
     out
 }
 
+/// PI, PID and PIV.
+fn pids() -> [PidSettings<f64>; 3] {
+    [
+        pi(),
+        PidSettings {
+            k_d: 0.5,
+            damping: DerivativeSource::on_measurement(),
+            derivative_time: 0.01,
+            ..pi()
+        },
+        PidSettings {
+            k_d: 1.0,
+            damping: DerivativeSource::Velocity,
+            ..pi()
+        },
+    ]
+}
+
 /// Every law of a machine, by one function: one trait over all of them.
 fn every_law(check: impl Fn(&dyn Fn(u8) -> Box<dyn Runs>)) {
     check(&|kind| match kind {
-        0 => Box::new(Running::new(Pid::try_new(pi()).unwrap())),
-        1 => Box::new(Running::new(
-            Pid::try_new(PidSettings {
-                k_d: 0.5,
-                derivative_time: 0.01,
-                ..pi()
-            })
-            .unwrap(),
+        0..3 => Box::new(Running::new(
+            Pid::try_new(pids()[usize::from(kind)]).unwrap(),
         )),
-        2 => Box::new(Running::new(
-            Pid::try_new(PidSettings {
-                k_d: 1.0,
-                damping: DerivativeSource::Velocity,
-                ..pi()
-            })
-            .unwrap(),
+        _ => Box::new(Running::new(
+            Adaptive::try_new(law(kind == 4, 60.0)).unwrap(),
         )),
-        3 => Box::new(Running::new(Adaptive::try_new(law(false, 60.0)).unwrap())),
-        _ => Box::new(Running::new(Adaptive::try_new(law(true, 60.0)).unwrap())),
     });
 }
 
@@ -157,20 +162,7 @@ fn one_good_sample_closes<C: Controller<f64>>(law: &C, reset: impl Fn(&C, &mut C
 
 #[test]
 fn after_an_acknowledgement_the_first_good_sample_closes_the_loop() {
-    for pid in [
-        pi(),
-        PidSettings {
-            k_d: 0.5,
-            damping: DerivativeSource::on_measurement(),
-            derivative_time: 0.01,
-            ..pi()
-        },
-        PidSettings {
-            k_d: 1.0,
-            damping: DerivativeSource::Velocity,
-            ..pi()
-        },
-    ] {
+    for pid in pids() {
         one_good_sample_closes(&Pid::try_new(pid).unwrap(), |_, state| state.reset());
     }
     for lag in [false, true] {
@@ -271,36 +263,23 @@ proptest! {
 
 #[test]
 fn settings_that_break_the_promise_are_refused_by_name() {
-    let refused = |settings: PidSettings<f64>| Pid::try_new(settings).unwrap_err().to_string();
-    let outside = Fallback::try_new(20, 70.0).unwrap();
-    assert!(refused(PidSettings {
-        fallback: outside,
-        ..pi()
-    })
-    .contains("safe command"));
-    assert!(refused(PidSettings {
-        longest_dt: 0.0,
-        ..pi()
-    })
-    .contains("longest_dt"));
-    assert!(refused(PidSettings {
-        longest_dt: f64::NAN,
-        ..pi()
-    })
-    .contains("longest_dt"));
-    assert!(fallback()
-        .with_weight(0)
-        .unwrap_err()
-        .to_string()
-        .contains("weight"));
+    let pid = |change: fn(&mut PidSettings<f64>)| {
+        let mut settings = pi();
+        change(&mut settings);
+        Pid::try_new(settings).unwrap_err().to_string()
+    };
+    let outside = pid(|s| s.fallback = Fallback::try_new(20, 70.0).unwrap());
+    assert!(outside.contains("safe command"));
+    assert!(pid(|s| s.longest_dt = 0.0).contains("longest_dt"));
+    assert!(pid(|s| s.longest_dt = f64::NAN).contains("longest_dt"));
+    let weight = fallback().with_weight(0).unwrap_err().to_string();
+    assert!(weight.contains("weight"));
     let adaptive = AdaptiveSettings {
         longest_dt: -1.0,
         ..law(true, 60.0)
     };
-    assert!(Adaptive::try_new(adaptive)
-        .unwrap_err()
-        .to_string()
-        .contains("longest_dt"));
+    let refused = Adaptive::try_new(adaptive).unwrap_err().to_string();
+    assert!(refused.contains("longest_dt"));
     assert!(LONGEST > DT && limits(60.0).contains(0.0));
 }
 

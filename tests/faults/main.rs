@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod adaptive;
+#[cfg(feature = "serde")]
+mod flash;
 mod inputs;
 mod latch;
 mod pid;

@@ -1,5 +1,4 @@
 //! States of controllers that were stored: what earlier versions wrote is read.
-#![allow(clippy::unwrap_used)]
 
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Applied, Pid, PidInput, PidState};
 use bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
