@@ -145,92 +145,29 @@ fn the_fields_may_come_in_any_order_and_the_term_before_its_channels() {
 const TORQUE: &str = "mode = \"torque\"";
 
 /// What is replaced in [`FILE`], by what, and what is said of it.
+#[rustfmt::skip]
 const BROKEN: &[(&str, &str, &str)] = &[
-    (
-        "bowden.model/1",
-        "bowden.model/2",
-        "\"bowden.model/2\" where the schema \"bowden.model/1\" was expected",
-    ),
-    (
-        "schema = \"bowden.model/1\"\n",
-        "",
-        "missing field `schema`",
-    ),
-    (
-        TORQUE,
-        "mode = \"twist\"",
-        "unknown variant `twist`, expected `torque` or `displacement`",
-    ),
+    ("bowden.model/1", "bowden.model/2", "\"bowden.model/2\" where the schema \"bowden.model/1\" was expected"),
+    ("schema = \"bowden.model/1\"\n", "", "missing field `schema`"),
+    (TORQUE, "mode = \"twist\"", "unknown variant `twist`, expected `torque` or `displacement`"),
     (TORQUE, "", "missing field `mode`"),
-    (
-        "channels = [\"phi_p\", \"angle of the joint [rad]\"]\n",
-        "",
-        "missing field `channels`",
-    ),
-    (
-        "\"angle of the joint [rad]\"]",
-        "\"angle\"]",
-        "term stribeck: no channel of its source's name",
-    ),
-    (
-        "[\"phi_p\", ",
-        "[\"phi_p\", \"phi_p\", ",
-        "two channels have one name",
-    ),
-    (
-        TORQUE,
-        "mode = \"torque\"\nauthor = \"me\"",
-        "unknown field `author`",
-    ),
-    (
-        "rho = 0.382",
-        "rho = -0.382",
-        "transmission: rho is out of range",
-    ),
-    (
-        "rho = 0.382",
-        "rho = nan",
-        "transmission: rho is not finite",
-    ),
+    ("channels = [\"phi_p\", \"angle of the joint [rad]\"]\n", "", "missing field `channels`"),
+    ("\"angle of the joint [rad]\"]", "\"angle\"]", "term stribeck: no channel of its source's name"),
+    ("[\"phi_p\", ", "[\"phi_p\", \"phi_p\", ", "two channels have one name"),
+    (TORQUE, "mode = \"torque\"\nauthor = \"me\"", "unknown field `author`"),
+    ("rho = 0.382", "rho = -0.382", "transmission: rho is out of range"),
+    ("rho = 0.382", "rho = nan", "transmission: rho is not finite"),
     ("n = 1.02", "", "missing field `n`"),
     ("n = 1.02", "n = 1.02\nm = 2", "unknown field `m`"),
-    (
-        "\"viscous\"",
-        "\"viscious\"",
-        "\"viscious\" where an effect of the catalogue was expected",
-    ),
-    (
-        "\"viscous\"",
-        "\"coulomb\"",
-        "term coulomb: condition not met: there must be one value for each shape",
-    ),
-    (
-        "name = \"a\"",
-        "name = \"b\"",
-        "term stribeck: another shape where a was expected",
-    ),
-    (
-        "name = \"a\"",
-        "name = \"a_and_quite_a_lot_more\"",
-        "term stribeck: another shape where a was expected",
-    ),
-    (
-        "value = 1.5",
-        "value = 0.0",
-        "term stribeck: a is out of range",
-    ),
-    (
-        "value = 1.5",
-        "value = 1.5\nunit = \"rad/s\"",
-        "unknown field `unit`",
-    ),
+    ("\"viscous\"", "\"viscious\"", "\"viscious\" where an effect of the catalogue was expected"),
+    ("\"viscous\"", "\"coulomb\"", "term coulomb: condition not met: there must be one value for each shape"),
+    ("name = \"a\"", "name = \"b\"", "term stribeck: another shape where a was expected"),
+    ("name = \"a\"", "name = \"a_and_quite_a_lot_more\"", "term stribeck: another shape where a was expected"),
+    ("value = 1.5", "value = 0.0", "term stribeck: a is out of range"),
+    ("value = 1.5", "value = 1.5\nunit = \"rad/s\"", "unknown field `unit`"),
     ("origin = -0.25", "origin = inf", "origin is not finite"),
     ("gain = -0.264", "gain = nan", "gain is not finite"),
-    (
-        "gain = -0.264",
-        "gain = -0.264\nsize = 1",
-        "unknown field `size`",
-    ),
+    ("gain = -0.264", "gain = -0.264\nsize = 1", "unknown field `size`"),
 ];
 
 #[test]

@@ -66,32 +66,21 @@ fn a_bad_sample_returns_the_output_at_the_last_good_input() {
 fn the_inverse_exists_up_to_the_sigma_where_the_output_turns_back() {
     // B/(2·kappa_eta·rho) = 0.7434 for the first set of the paper.
     assert!(paper(0.7433).inverse().is_ok());
-    assert!(matches!(
-        paper(0.7436).inverse(),
-        Err(Error::Inadmissible(_))
-    ));
-    assert!(matches!(
-        paper(98.36).inverse(),
-        Err(Error::Inadmissible(_))
-    ));
+    for sigma in [0.7436, 98.36] {
+        let inverse = paper(sigma).inverse();
+        assert!(matches!(inverse, Err(Error::Inadmissible(_))));
+    }
     // A spring's hysteresis adds to the slope: any sigma will do.
     let steep = BoucWen::try_new(0.095_82, 98.36, 3.871).unwrap();
-    assert!(Transmission::displacement(1.0, 7.0, 0.0, steep)
-        .unwrap()
-        .inverse()
-        .is_ok());
-    assert!(Transmission::displacement(1.0, -7.0, 0.0, steep)
-        .unwrap()
-        .inverse()
-        .is_err());
-    assert!(Transmission::displacement(-1.0, -7.0, 0.0, steep)
-        .unwrap()
-        .inverse()
-        .is_ok());
-    assert!(Transmission::displacement(0.0, 7.0, 0.0, steep)
-        .unwrap()
-        .inverse()
-        .is_err());
+    for (gain, kappa_eta, exists) in [
+        (1.0, 7.0, true),
+        (1.0, -7.0, false),
+        (-1.0, -7.0, true),
+        (0.0, 7.0, false),
+    ] {
+        let spring = Transmission::displacement(gain, kappa_eta, 0.0, steep).unwrap();
+        assert_eq!(spring.inverse().is_ok(), exists, "{gain} {kappa_eta}");
+    }
 }
 
 /// Any torque transmission or spring; most have no inverse.

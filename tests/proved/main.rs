@@ -30,6 +30,18 @@ fn sign() -> impl Strategy<Value = SmoothSign> {
     prop_oneof![Just(SmoothSign::Tanh), Just(SmoothSign::Clamp)]
 }
 
+fn form() -> impl Strategy<Value = Form<f32>> {
+    prop_oneof![
+        Just(Form::AsPublished {
+            time_constant: 0.005
+        }),
+        Just(Form::FirstOrder {
+            step: 0.001,
+            plant_gain: 1.0
+        }),
+    ]
+}
+
 /// delta of Theorem 1 for alpha = 1, theta = 0 and `|D| <= disturbance`: `sqrt(2·phi/theta)`.
 fn theorem_1(law: &AdaptiveSettings<f32, 2>, disturbance: f32) -> f32 {
     let share =
@@ -204,18 +216,13 @@ proptest! {
     #[test]
     fn controllers_command_within_their_limits(
         samples in prop::collection::vec(prop::array::uniform5(any_float()), 1..50),
-        literal in any::<bool>(),
+        form in form(),
     ) {
         let limits = Limits::try_new(-20.0, 60.0).unwrap().with_slew(1e4).unwrap();
         let fallback = Fallback::try_new(3, -2.0).unwrap();
         let pid = Pid::try_new(PidSettings {
             k_d: 2.0, derivative_time: 0.1, limits, fallback, ..PidSettings::unlimited(30.0, 18.0)
         }).unwrap();
-        let form = if literal {
-            Form::AsPublished { time_constant: 0.005 }
-        } else {
-            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
-        };
         let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
             delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
@@ -263,15 +270,10 @@ proptest! {
     fn from_a_state_of_another_law_a_command_is_within_the_limits_of_the_law_that_steps(
         wide in 20.0..1e6_f32,
         narrow in 0.1..20.0_f32,
-        lag: bool,
+        form in form(),
         safe: bool,
         samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..40),
     ) {
-        let form = if lag {
-            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
-        } else {
-            Form::AsPublished { time_constant: 0.005 }
-        };
         let limits = |most: f32| Limits::try_new(-most, most).unwrap();
         let fallback = |most: f32| match safe {
             true => Fallback::try_new(3, most).unwrap(),
@@ -321,18 +323,13 @@ proptest! {
     #[test]
     fn a_hand_over_keeps_the_command(
         at in prop::array::uniform5(any_float()), samples in 0_usize..50, high in 5.0..60.0_f32,
-        literal in any::<bool>(),
+        form in form(),
     ) {
         let quiet = Adaptive::<f32, 2>::paper();
         let mut state = AdaptiveState::new(&quiet);
         for _ in 0..samples {
             quiet.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]));
         }
-        let form = if literal {
-            Form::AsPublished { time_constant: 0.005 }
-        } else {
-            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
-        };
         let eager = Adaptive::<f32, 2>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(0.8, 1.2),
             delta: Estimator::fixed(1.0).within(0.0, 4.0),
@@ -349,13 +346,8 @@ proptest! {
 
     #[test]
     fn a_start_keeps_the_command_that_is_out(
-        at in prop::array::uniform6(any_float()), high in 5.0..60.0_f32, literal in any::<bool>(),
+        at in prop::array::uniform6(any_float()), high in 5.0..60.0_f32, form in form(),
     ) {
-        let form = if literal {
-            Form::AsPublished { time_constant: 0.005 }
-        } else {
-            Form::FirstOrder { step: 0.001, plant_gain: 1.0 }
-        };
         let limits = Limits::try_new(-5.0, high).unwrap();
         let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
             beta: Estimator::fixed(1.0).within(0.8, 1.2),

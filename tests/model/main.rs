@@ -1,6 +1,8 @@
 //! The model: sums, output stages, samples that cannot be used, and its clock.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod fixed;
+
 use approx::assert_relative_eq;
 use bowden::effect::{Effect, EffectState, Inputs, Motion, CATALOGUE};
 use bowden::hysteresis::{BoucWen, BoucWenState};

@@ -1,5 +1,4 @@
 //! The model whose effects are types: the numbers of the model that holds any effect.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use bowden::effect::*;
 use bowden::hysteresis::BoucWen;
