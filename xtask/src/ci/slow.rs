@@ -3,7 +3,6 @@
 use super::shell::{fail, Done, Shell};
 use super::STEPS;
 use crate::house;
-use std::collections::BTreeMap;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -11,18 +10,21 @@ use std::path::Path;
 /// The line before a slow test, up to the name of its step.
 const MARK: &str = "#[ignore = \"slow: bash .ci/run ";
 
-/// The steps that the slow tests of a file name.
-fn steps_of(file: &str) -> Result<Vec<&str>, String> {
-    let marked = file.lines().map(str::trim);
-    let marked = marked.filter(|line| line.starts_with("#[ignore"));
-    marked
-        .map(|line| {
-            let step = line.strip_prefix(MARK);
-            let step = step.and_then(|rest| rest.strip_suffix("\"]"));
-            let step = step.filter(|name| STEPS.iter().any(|step| step.name == *name));
-            step.ok_or_else(|| format!("no step runs the test after {line}"))
-        })
-        .collect()
+/// The slow tests of a file, each with the step that it names.
+fn tests(file: &str) -> Result<Vec<(&str, &str)>, String> {
+    let mut lines = file.lines().map(str::trim);
+    let mut found = Vec::new();
+    while let Some(line) = lines.find(|line| line.starts_with("#[ignore")) {
+        let step = line.strip_prefix(MARK);
+        let step = step.and_then(|rest| rest.strip_suffix("\"]"));
+        let step = step.filter(|name| STEPS.iter().any(|step| step.name == *name));
+        let test = lines.find_map(|line| line.strip_prefix("fn ")?.split('(').next());
+        match (step, test) {
+            (Some(step), Some(test)) => found.push((step, test)),
+            _ => return Err(format!("no step runs the test after {line}")),
+        }
+    }
+    Ok(found)
 }
 
 /// The test target of a file in a folder of tests: `NAME.rs` or `NAME/….rs`.
@@ -34,7 +36,7 @@ fn target(tests: &Path, file: &Path) -> Option<String> {
 /// Runs the slow tests that name the step, in the profile in which `cargo test` has built them:
 /// with overflow checks, and hardly slower than the release profile.
 pub fn run(shell: &Shell, step: &str) -> Done {
-    let mut targets = BTreeMap::<&str, BTreeSet<String>>::new();
+    let mut found = false;
     for (package, folder) in [
         ("bowden-bound", "bound"),
         ("bowden-lab", "lab/identify"),
@@ -42,43 +44,47 @@ pub fn run(shell: &Shell, step: &str) -> Done {
         ("bowden-rig", "lab/rig"),
         ("bowden-trials", "lab/trials"),
     ] {
-        let tests = shell.root.join(folder).join("tests");
-        for file in house::files(&tests)? {
-            let steps = fs::read_to_string(&file)?;
-            let steps = match steps_of(&steps) {
-                Ok(steps) => steps.contains(&step),
+        let folder = shell.root.join(folder).join("tests");
+        let (mut targets, mut names) = (BTreeSet::new(), String::new());
+        for file in house::files(&folder)? {
+            let text = fs::read_to_string(&file)?;
+            let tests = match tests(&text) {
+                Ok(tests) => tests,
                 Err(reason) => return fail(format!("{}: {reason}", file.display())),
             };
-            if steps {
-                targets
-                    .entry(package)
-                    .or_default()
-                    .extend(target(&tests, &file));
+            for (_, test) in tests.iter().filter(|(own, _)| *own == step) {
+                targets.extend(target(&folder, &file));
+                names += " ";
+                names += test;
             }
         }
-    }
-    if targets.is_empty() {
-        return fail("no slow test names this step");
-    }
-    for (package, targets) in targets {
+        if targets.is_empty() {
+            continue;
+        }
+        found = true;
         let targets: String = targets.iter().map(|t| format!(" --test {t}")).collect();
-        shell.run(&format!("cargo test -p {package}{targets} -- --ignored"))?;
+        shell.run(&format!(
+            "cargo test -p {package}{targets} -- --ignored{names}"
+        ))?;
     }
-    Ok(())
+    if found {
+        return Ok(());
+    }
+    fail("no slow test names this step")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{steps_of, target};
+    use super::{target, tests};
     use std::path::Path;
 
     #[test]
     fn a_slow_test_names_a_step() {
         let file = "#[test]\n#[ignore = \"slow: bash .ci/run conclusions\"]\nfn a() {}\n";
-        assert_eq!(steps_of(file), Ok(vec!["conclusions"]));
-        assert_eq!(steps_of("#[test]\nfn a() {}\n"), Ok(vec![]));
-        assert!(steps_of("#[ignore]\n").is_err());
-        assert!(steps_of(&file.replace("conclusions", "conclusion")).is_err());
+        assert_eq!(tests(file), Ok(vec![("conclusions", "a")]));
+        assert_eq!(tests("#[test]\nfn a() {}\n"), Ok(vec![]));
+        assert!(tests("#[ignore]\nfn a() {}\n").is_err());
+        assert!(tests(&file.replace("conclusions", "conclusion")).is_err());
     }
 
     #[test]
