@@ -3,10 +3,10 @@
 //! The records come from [`bowden_synth`], which shares no code with the fit: an
 //! error in a common regressor or integrator cannot cancel out of sight.
 //!
+//! * [`headline`]: what the project promises, on one record each, in seconds.
 //! * [`recovery`]: planted Bouc-Wen parameters come back, and so do their intervals.
 //! * [`planted`]: an undeclared effect is found, named and taken away.
 //! * [`nulls`]: where the search finds no term, nothing is added.
-//! * [`determinism`]: the same record gives the same result, on any number of threads.
 //! * [`beside`]: effects that are found only beside each other.
 //! * [`imitated`]: names that imitated an effect together leave again, all at once.
 //! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
@@ -21,13 +21,16 @@
 //! * [`turned`]: a sensor or a scale that was mounted the other way round changes signs, no names.
 //! * [`widths`]: an interval is as wide as the noise makes it, whatever its seed.
 //! * [`exported`]: what was fitted is what runs in firmware.
+//! * [`foresight`]: what a record could not show, and which record would.
+//! * [`search`]: the algebra of the search against direct computation.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod beside;
 mod delivered;
-mod determinism;
 mod exported;
+mod foresight;
 mod hardening;
+mod headline;
 mod hidden;
 mod imitated;
 mod late;
@@ -36,6 +39,7 @@ mod planted;
 mod power_law;
 mod recovery;
 mod rig;
+mod search;
 mod series;
 mod stretch;
 mod torque_alone;

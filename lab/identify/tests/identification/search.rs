@@ -1,5 +1,4 @@
 //! The algebra of the search against direct computation on the samples.
-#![allow(clippy::unwrap_used)]
 
 use bowden_lab::problem::Stretch;
 use bowden_lab::score::blocks::{flips, sign_flip_p, sign_flip_p_above, BLOCKS};

@@ -1,5 +1,4 @@
 //! What a record could not show, and which record would: `power` and `plan`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod plan;
 mod power;

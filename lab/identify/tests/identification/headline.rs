@@ -1,7 +1,6 @@
 //! What the project promises, on one record each, in seconds: an effect that nobody declared is
 //! found, and where the search finds no term nothing is named. The same on hundreds of records, with
-//! every effect and noise of three colours, is in `identification`, which `.ci/run` runs.
-#![allow(clippy::unwrap_used, clippy::panic)]
+//! every effect and noise of three colours, is in the modules beside this one, which `.ci/run` runs.
 
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
