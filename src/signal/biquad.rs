@@ -29,14 +29,14 @@ mod prewarped;
 /// transfer function as the direct forms. Direct forms store `1 − frequency²·…` in coefficients
 /// near 2, and in `f32` lose the corner below 1/1000 of the sample rate. Here the coefficients
 /// are proportional to `frequency`, and the integrators are [`Compensated`] sums. Test
-/// `a_low_corner_needs_this_form_in_single_precision` in `tests/signal_filters.rs` compares
+/// `a_low_corner_needs_this_form_in_single_precision` in `tests/signal/filters.rs` compares
 /// both forms.
 ///
 /// **Bounds.** At a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
 /// grows, for any sequence of `dt`. The output stays within `|low − c|` of the start. From rest, at
 /// a constant `dt` of the design, the output is limited to a multiple of the largest sample:
 /// `2 + 4·q/π` for a low-pass and 3 for a notch. These factors are the sum of the magnitudes of the
-/// impulse response, on a grid of `frequency` and `q` in `tests/signal_filters.rs`.
+/// impulse response, on a grid of `frequency` and `q` in `tests/signal/filters.rs`.
 ///
 /// ```
 /// use bowden::signal::{Biquad, BiquadState};
