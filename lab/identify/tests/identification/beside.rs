@@ -5,7 +5,6 @@
 //! quadratic drag. Only beside each other are they found.
 
 use crate::rig::Made;
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// Mode, seed, and what is planted with how many times the noise.
@@ -57,7 +56,7 @@ fn names_that_only_together_are_right_are_found_together() {
             ..Recipe::new(mode)
         };
         let made = Made::new(&recipe);
-        let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+        let ledger = made.closed();
         let named: Vec<Vec<&'static str>> = ledger
             .rounds
             .iter()

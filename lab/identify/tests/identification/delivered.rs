@@ -3,7 +3,6 @@
 use crate::rig::{with_effect, Made, MODES};
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::fit::{fit, Segments, Solution};
-use bowden_lab::search::close;
 use bowden_synth::Mode;
 use rayon::prelude::*;
 
@@ -79,7 +78,7 @@ fn what_is_held_out_does_not_move_the_final_model_and_the_stop_check_does() {
 #[test]
 fn nothing_about_the_names_changes_with_the_final_fit() {
     let made = Made::new(&with_effect(Mode::Displacement, "viscous", 3.0, 66_200));
-    let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+    let ledger = made.closed();
     let done = FinalFit::new(&made.data, &ledger);
     let names = |s: &Solution| -> Vec<&str> {
         let terms = s.structure.terms.iter();

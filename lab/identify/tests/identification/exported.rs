@@ -16,7 +16,6 @@ use bowden_lab::model::structure::Role;
 use bowden_lab::model::{Table, Variable};
 use bowden_lab::problem::Prepared;
 use bowden_lab::record;
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 use serde::de::DeserializeOwned;
 
@@ -130,7 +129,7 @@ fn a_model_that_the_loop_found_runs_the_same_in_firmware() {
         Mode::Displacement,
         &["inertia", "lag", "stiffness-quadratic"],
     );
-    let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+    let ledger = made.closed();
     // What is delivered, and what `--model-out` writes.
     let done = FinalFit::new(&made.data, &ledger);
     let last = &done.solution;

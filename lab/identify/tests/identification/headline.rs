@@ -2,27 +2,20 @@
 //! found, and where the search finds no term nothing is named. The same on hundreds of records, with
 //! every effect and noise of three colours, is in the modules beside this one, which `.ci/run` runs.
 
+use super::rig::Made;
 use bowden_lab::ledger::Ledger;
-use bowden_lab::model::declared::structure;
-use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{parse, Options};
-use bowden_lab::search::close;
-use bowden_synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{Mode, Planted, Recipe};
 
 /// Closes the loop on a record of Bouc-Wen and, where one is given, an effect at three times
 /// the noise; declared is Bouc-Wen alone.
-fn closed(mode: Mode, effect: Option<&str>) -> (Prepared, Ledger) {
-    let recipe = Recipe {
+fn closed(mode: Mode, effect: Option<&str>) -> (Made, Ledger) {
+    let made = Made::new(&Recipe {
         seed: 66_300,
         effects: effect.map(Planted::new).into_iter().collect(),
         ..Recipe::new(mode)
-    };
-    let csv = generate(&recipe).unwrap().to_csv();
-    let record = parse(csv.as_bytes(), "made.csv", &Options::default()).unwrap();
-    let data = Prepared::new(&record, Preparation::default()).unwrap();
-    let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
-    let ledger = close(&data, &declared, |_| ()).unwrap();
-    (data, ledger)
+    });
+    let ledger = made.closed();
+    (made, ledger)
 }
 
 #[test]
@@ -31,7 +24,7 @@ fn an_effect_that_nobody_declared_is_found_by_name_and_taken_away() {
         (Mode::Torque, "viscous"),
         (Mode::Displacement, "drag-quadratic"),
     ] {
-        let (data, ledger) = closed(mode, Some(effect));
+        let (made, ledger) = closed(mode, Some(effect));
         let rounds = ledger.rounds.iter();
         let names: Vec<&str> = rounds.map(|r| r.candidate.term.effect.name()).collect();
         assert_eq!(names, [effect], "{mode:?}");
@@ -44,9 +37,9 @@ fn an_effect_that_nobody_declared_is_found_by_name_and_taken_away() {
         // The floor is an estimate of the noise, and the held-out part of one record is short:
         // the verdict takes up to 1.2 times for noise.
         assert!(
-            after < 1.2 * data.noise_floor,
+            after < 1.2 * made.data.noise_floor,
             "{mode:?} {effect}: {after} of {}",
-            data.noise_floor
+            made.data.noise_floor
         );
     }
 }

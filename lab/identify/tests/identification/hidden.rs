@@ -1,7 +1,6 @@
 //! A play that the baseline hysteresis has bent towards is found beside it.
 
 use crate::rig::Made;
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// Fitted without the play, the hysteresis leaves up to four times the noise, and to first order
@@ -17,7 +16,7 @@ fn a_play_that_the_hysteresis_imitates_is_named_with_its_width() {
             }],
             ..Recipe::new(Mode::Displacement)
         });
-        let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+        let ledger = made.closed();
         let rounds = ledger.rounds.iter();
         let names: Vec<&str> = rounds.map(|r| r.candidate.term.effect.name()).collect();
         assert_eq!(names, ["backlash"], "{seed}");

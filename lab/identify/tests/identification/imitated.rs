@@ -5,7 +5,6 @@
 
 use crate::rig::Made;
 use bowden_lab::ledger::Ledger;
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 fn closed(seed: u64, planted: [(&str, f64); 3]) -> Ledger {
@@ -19,7 +18,7 @@ fn closed(seed: u64, planted: [(&str, f64); 3]) -> Ledger {
         effects: planted.to_vec(),
         ..Recipe::new(Mode::Torque)
     });
-    close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap()
+    made.closed()
 }
 
 fn families(ledger: &Ledger) -> Vec<&'static str> {

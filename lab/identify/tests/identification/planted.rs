@@ -17,7 +17,6 @@ use crate::rig::{with_effect, Made, MODES};
 use bowden::effect::CATALOGUE;
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::fit::fit;
-use bowden_lab::search::close;
 use bowden_synth::{effects, Mode, Recipe};
 use rayon::prelude::*;
 use Expected::{Absorbed, AtTold, Found, FoundAs, Misnamed, Reached};
@@ -156,7 +155,7 @@ struct Outcome {
 impl Outcome {
     fn new(mode: Mode, effect: &'static str, strength: f64, seed: u64) -> Self {
         let made = Made::new(&recipe(mode, effect, strength, seed));
-        let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+        let ledger = made.closed();
         let mut families = Vec::new();
         let mut found = Vec::new();
         // What is found and not delivered is a name all the same.

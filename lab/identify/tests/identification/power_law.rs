@@ -4,7 +4,6 @@
 use crate::rig::{Made, MODES};
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::ledger::{Grade, Ledger};
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// The record of some effects at that many times the noise, and what is found in it.
@@ -24,7 +23,7 @@ fn closed_for(seconds: f64, mode: Mode, effects: &[(&str, f64)], seed: u64) -> (
         effects: planted.collect(),
         ..Recipe::new(mode)
     });
-    let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+    let ledger = made.closed();
     (made, ledger)
 }
 

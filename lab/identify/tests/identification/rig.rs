@@ -2,10 +2,12 @@
 
 use bowden_lab::conclude::intervals::{parameters, Parameter};
 use bowden_lab::fit::{Segments, Solution};
+use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
 use bowden_lab::model::structure::Structure;
 use bowden_lab::problem::{Preparation, Prepared};
 use bowden_lab::record::{parse, Options, Record};
+use bowden_lab::search::close;
 use bowden_synth::{generate, Mode, Planted, Recipe, Synthetic};
 
 pub const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
@@ -74,6 +76,11 @@ impl Made {
     pub fn declare(&self, list: &[&str]) -> Structure {
         let list: Vec<String> = list.iter().map(|s| (*s).to_owned()).collect();
         structure(&list, &self.data).unwrap()
+    }
+
+    /// What the search adds to a Bouc-Wen transmission.
+    pub fn closed(&self) -> Ledger {
+        close(&self.data, &self.declare(&["bouc-wen"]), |_| ()).unwrap()
     }
 
     pub fn parameters(&self, solution: &Solution) -> Vec<Parameter> {

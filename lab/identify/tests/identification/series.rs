@@ -1,7 +1,6 @@
 //! A play in series with the transmission: no sum of columns stands for it.
 
 use crate::rig::Made;
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Recipe};
 
 /// The input, then the noise: half-widths from a hundredth of the stroke up.
@@ -17,7 +16,7 @@ fn a_play_in_series_is_found_with_its_width_and_leaves_the_noise() {
             ..Recipe::new(Mode::Displacement)
         };
         let made = Made::new(&recipe);
-        let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+        let ledger = made.closed();
         let names: Vec<_> = ledger
             .rounds
             .iter()
@@ -42,6 +41,6 @@ fn without_a_play_none_is_named() {
         ..Recipe::new(Mode::Displacement)
     };
     let made = Made::new(&recipe);
-    let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+    let ledger = made.closed();
     assert!(ledger.rounds.is_empty());
 }

@@ -4,12 +4,11 @@ use crate::rig::{with_effect, Made};
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::fit::fit;
 use bowden_lab::model::declared::structure;
-use bowden_lab::search::close;
 use bowden_synth::{Mode, Planted, Recipe};
 
 /// Names of the delivered rounds, and whose families and rivals they are.
 fn named(made: &Made) -> (Vec<String>, Vec<Vec<&'static str>>) {
-    let ledger = close(&made.data, &made.declare(&["bouc-wen"]), |_| ()).unwrap();
+    let ledger = made.closed();
     let families = |round: &bowden_lab::ledger::Round| round.possible().map(|c| c.family).collect();
     let rounds = &ledger.rounds;
     (
