@@ -63,7 +63,7 @@
 //! - `try_new` checks every parameter. After that, nothing panics.
 //! - A bad sample leaves the state unchanged. A sample is bad if it contains a NaN, an infinity, or
 //!   a `dt` that is not positive.
-//! - Equation numbers refer to Nguyen et al. (2018), see [the equations](book::equations).
+//! - Equation numbers refer to Nguyen et al. (2018); see [the equations](book::equations).
 //!
 //! # Features
 //! All features are off by default:

@@ -7,7 +7,7 @@
 //! ```
 //! Only the transmission reads u; every effect reads the measured signals.
 //!
-//! A regressor's x is the position minus the origin of the term, see [`Term`].
+//! A regressor's x is the position minus the origin of the term; see [`Term`].
 //!
 //! The bench fits a [`Model`], and the firmware runs it. It uses no heap, has a fixed capacity of
 //! `N` terms, and separates configuration and state. A model may have no transmission (effects
@@ -111,9 +111,9 @@ pub struct Sample<'a, T> {
 ///
 /// Every other format, such as postcard, stores the parts in order, without names: 143 bytes in
 /// `f32` for eight terms with eight shape parameters. The bytes state neither their precision nor
-/// their version. They identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE).
-/// Store them with a checksum (postcard's `to_slice_crc32`), and write them again for a new version
-/// of this crate.
+/// their version. The bytes identify an effect by its index in
+/// [`CATALOGUE`](crate::effect::CATALOGUE). Store them with a checksum (postcard's
+/// `to_slice_crc32`), and write them again for a new version of this crate.
 ///
 /// ```
 /// # #[cfg(feature = "serde")] {
@@ -341,10 +341,10 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// The same step, which also reports each term's contribution to the output.
     ///
-    /// The step calls `share(index, gain·regressor)` once per term, output stages last. It makes no
-    /// call on a bad sample. The difference between the output and the sum of these contributions
-    /// is the contribution of the transmission. It includes the effect of the input stages, for
-    /// which no call is made.
+    /// The step calls `share(index, gain·regressor)` once per term, output stages last. The step
+    /// makes no call on a bad sample. The difference between the output and the sum of these
+    /// contributions is the contribution of the transmission. This contribution includes the effect
+    /// of the input stages, for which the step makes no call.
     ///
     /// ```
     /// use bowden::effect::{Inertia, Motion, Viscous};

@@ -173,11 +173,11 @@ pub trait Real:
     fn as_f64(self) -> f64;
     /// e to the power of `self`.
     fn exp(self) -> Self;
-    /// e to the power of `self`, less one, accurate near zero.
+    /// e to the power of `self`, minus one; accurate near zero.
     fn exp_m1(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
-    /// Natural logarithm of one plus `self`, accurate near zero.
+    /// Natural logarithm of one plus `self`; accurate near zero.
     fn ln_1p(self) -> Self;
     /// `self` to the power of `exponent`.
     fn pow(self, exponent: Self) -> Self;

@@ -6,17 +6,17 @@
 //! In both modes `eta` is the hysteresis of [`BoucWen`], advanced by the input.
 //!
 //! # The inverse
-//! The inverse computes the input for a given output. It is unique if the output rises with the
-//! input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`, and
-//! 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
+//! The inverse computes the input for a given output. This input is unique if the output rises with
+//! the input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`,
+//! and 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
 //! bound is 0.743 for the first parameter set of Nguyen et al. (2018), which has sigma = 98.36.
 //! Such a set is suitable only for simulation and identification. In a closed loop, the output of
 //! such a plant would fall while its input rises.
 //!
-//! This is the slope of the equation. The `f32` step is no steeper up to n = 4 (proved) and up to
-//! n = 10 (measured). From about n = 12 on it may be 1.39 times as steep, see
-//! [`hysteresis`](crate::hysteresis). In that range of n, choose sigma below the bound divided by
-//! 1.39. [`Transmission::greatest_invertible_sigma`] returns the bound.
+//! The condition follows from the slope of the equation. The `f32` step is no steeper up to n = 4
+//! (proved) and up to n = 10 (measured). From about n = 12 on it may be 1.39 times as steep; see
+//! [`hysteresis`](crate::hysteresis). For such n, choose sigma below the bound divided by 1.39.
+//! [`Transmission::greatest_invertible_sigma`] returns the bound.
 //! [`Transmission::nearest_invertible`] returns a transmission within it.
 //!
 //! # Noise in front of the hysteresis
@@ -215,19 +215,19 @@ impl<T: Real> Transmission<T> {
             .filter(|sigma| *sigma >= T::from_f64(0.5))
     }
 
-    /// The nearest transmission with an inverse; this transmission itself if it has one.
+    /// The nearest transmission with an inverse: this transmission itself if it has an inverse.
     ///
     /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
     /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
-    /// `|gain|/|kappa_eta|`. This makes the knee of the loop rounder and keeps the height of the
-    /// loop, which a feed-forward must overcome in every long motion. A lower kappa_eta would make
-    /// every saturated sample wrong. On loops of ten times 1/rho or more, its rms error is more
-    /// than twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
-    /// `tests/transmission.rs`).
+    /// `|gain|/|kappa_eta|`. The knee of the loop then becomes rounder, but the loop keeps its
+    /// height, which a feed-forward must overcome in every long motion. A lower kappa_eta instead
+    /// of a lower rho would make every saturated sample wrong: on loops of ten times 1/rho or more,
+    /// the rms error would be more than twice as large (test
+    /// `a_rounder_knee_costs_less_than_a_lower_loop` in `tests/transmission.rs`).
     ///
-    /// At the bound the slope of the output is zero at the reversal of a saturated loop. The rate
-    /// of the inverse's input is unbounded there, but its step is bounded, so a slew-rate limit
-    /// after the inverse does no harm.
+    /// At the bound the slope of the output is zero at the reversal of a saturated loop. There the
+    /// computed input changes at an unbounded rate, but its change in one sample is bounded, so a
+    /// slew-rate limit after the inverse does no harm.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no float

@@ -586,7 +586,7 @@ typedef struct bowden_limits_f32 {
 
 // The safe command after repeated bad samples.
 //
-// A score counts the bad samples: a bad sample adds the weight, and a good sample
+// A bad sample adds the weight to a fault counter, and a good sample
 // subtracts 1. At after*weight the safe command is applied until it is acknowledged.
 typedef struct bowden_fallback_f32 {
     // Number of bad samples in a row after which the safe command is applied, at least
@@ -781,7 +781,7 @@ typedef struct bowden_limits_f64 {
 
 // The safe command after repeated bad samples.
 //
-// A score counts the bad samples: a bad sample adds the weight, and a good sample
+// A bad sample adds the weight to a fault counter, and a good sample
 // subtracts 1. At after*weight the safe command is applied until it is acknowledged.
 typedef struct bowden_fallback_f64 {
     // Number of bad samples in a row after which the safe command is applied, at least

@@ -57,7 +57,7 @@ macro_rules! parts {
 
             /// The safe command after repeated bad samples.
             ///
-            /// A score counts the bad samples: a bad sample adds the weight, and a good sample
+            /// A bad sample adds the weight to a fault counter, and a good sample
             /// subtracts 1. At after*weight the safe command is applied until it is acknowledged.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]

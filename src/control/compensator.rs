@@ -4,13 +4,14 @@
 //! tau_i = inverse transmission(desired − Σ gain·regressor, eta)
 //! ```
 //!
-//! The feed-forward supplements a PI or an adaptive law, and allows identification on the bench to
-//! be compared with online adaptation. The inverse is exact along the path of the hysteresis, from
-//! equations (5)-(7). The effects are evaluated at the given motions and subtracted first.
+//! The feed-forward supplements a PI or an adaptive law. It also makes it possible to compare
+//! identification on the bench with online adaptation. The inverse is exact along the path of the
+//! hysteresis, from equations (5)-(7). The effects are evaluated at the given motions and
+//! subtracted first.
 //!
-//! The model runs in open loop, so it drifts away from the plant by the model error. Use the
-//! reference as its input, not the measured output: a noisy desired output destroys the hysteresis
-//! state ([`transmission`](crate::transmission)).
+//! The model runs in open loop, so its state differs from the plant by the model error. Use the
+//! reference as the desired output, not the measured output: a noisy desired output destroys the
+//! hysteresis state ([`transmission`](crate::transmission)).
 
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
@@ -135,9 +136,9 @@ impl<T: Real> BenchRange<T> {
 /// output.
 ///
 /// Two rules apply to effects that depend on the result:
-/// - An effect that reads the transmission's input or the load uses the values of the sample,
-///   for example the last command. This iteration converges if the effect's slope in these
-///   values is below the cable's gain.
+/// - An effect that reads the transmission's input or the load uses the values in the sample, for
+///   example the last command. Each sample is then one step of an iteration. The iteration
+///   converges if the slope of the effect over these values is below the gain of the cable.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
 /// Without such effects the model's output for `command` is `desired`, except for rounding.

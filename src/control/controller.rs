@@ -83,15 +83,15 @@ pub trait Controller<T: Real> {
     fn step(&self, state: &mut Self::State, at: &LoopSample<'_, T>) -> Output<T>;
 
     /// Prepares a stored state for a start after a power-off: the command becomes the permitted
-    /// command nearest to zero. The estimates of an adaptive law are kept, and so is a fault that
-    /// is not acknowledged.
+    /// command nearest to zero. The estimates of an adaptive law are kept; a fault that is not
+    /// acknowledged remains.
     fn restore(&self, state: &mut Self::State);
 
     /// Starts so that the command continues from `output` \[command unit\] without a jump.
     ///
     /// If the safe command is latched, this call does nothing. A state from [`start`](Self::start)
     /// has no fault. To switch from one law to another, check [`is_latched`](Self::is_latched) of
-    /// the old law, and switch only if it is not latched.
+    /// the old law, and switch only if the old law is not latched.
     fn resume_from(&self, state: &mut Self::State, output: T, at: &LoopSample<'_, T>) -> Status;
 
     /// Reports the drive's response to the last command, if the drive did not apply it.

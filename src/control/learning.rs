@@ -25,7 +25,8 @@
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison
 //! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015. In the
-//! latter, a proportional law with such a feed-forward had the smallest error of nine methods.
+//! second paper, a proportional law with such a feed-forward had the smallest error of nine
+//! methods.
 
 use super::status::unless_finite;
 use super::{Fault, Status};
@@ -134,9 +135,9 @@ crate::checked! {
     IterativeLearning<T>;
 
     /// Learning without forgetting. `gain` of the error \[command unit/output unit\] is not zero
-    /// and has the sign of the plant's gain; `limit > 0` bounds the learned values \[command
-    /// unit\]; `lead` is the number of cells between a command and its effect; `half_width` is that
-    /// of the triangle \[cells\].
+    /// and has the sign of the plant's gain. `limit > 0` bounds the learned values \[command
+    /// unit\]. `lead` is the number of cells between a command and its effect; `half_width` is the
+    /// half-width of the triangle \[cells\].
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.

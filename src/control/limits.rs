@@ -94,9 +94,9 @@ impl<T: Real> Limits<T> {
 
     /// The command nearest to `wanted` that is reachable from `last` within `dt` \[s\].
     ///
-    /// The result always lies within the range, even if `last` does not. It lies within `slew·dt`
-    /// of `last` if the range permits. NaN in `wanted`, or in `last` if it is needed, stays NaN;
-    /// controllers reject such a number earlier.
+    /// The result always lies within the range, even if `last` does not. The result lies within
+    /// `slew·dt` of `last` if the range permits. NaN in `wanted`, or in `last` if it is needed,
+    /// stays NaN; controllers reject such a number earlier.
     #[inline]
     #[must_use]
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {

@@ -7,12 +7,12 @@
 //! ```
 //!
 //! The observer compares the command that the nominal plant needs for the measured output with the
-//! applied command. It filters the difference through Q and adds it to the next command. Below
-//! `1/tau` the loop then sees the nominal plant instead of the plant with friction, as long as no
-//! limit is active.
+//! applied command. It filters the difference between the two commands through Q, and adds the
+//! filtered difference to the next command. Below `1/tau` the loop then sees the nominal plant
+//! instead of the plant with friction, as long as no limit is active.
 //!
 //! The observer needs no friction model. It needs alpha, wn and zeta, from the drive's
-//! specification or from a bench record; the adaptive law needs none of these.
+//! specification or from a bench record; the adaptive law needs none of these parameters.
 //!
 //! Connect the observer to a controller's `feed_forward`; its own limit bounds it for any
 //! input. Combine it with the nominal plant's own inverse along the reference
@@ -144,7 +144,7 @@ crate::checked! {
 
     /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
     /// The latency covers whole samples of delay, half a sample for the zero-order hold, and the
-    /// lags of drive and sensor. It excludes the response of the nominal plant.
+    /// lags of drive and sensor. The latency excludes the response of the nominal plant.
     ///
     /// The observer delays the command by a lag of this time before the comparison.
     ///

@@ -12,8 +12,8 @@
 //! - The integral is stored as a command, so a change of `k_i` does not move the command.
 //!   It is a compensated sum: in `f32` a plain sum stops once its increments are below half an
 //!   ulp.
-//! - The anti-windup treats the slew-rate limit and the range differently, see [`AntiWindup`].
-//! - A bad sample leaves the state unchanged and holds the command, see [`Status`]. The
+//! - The anti-windup treats the slew-rate limit and the range differently; see [`AntiWindup`].
+//! - A bad sample leaves the state unchanged and holds the command; see [`Status`]. The
 //!   derivative bridges the gap, and the integral does not count the time of the gap. After too
 //!   many bad samples the safe command is applied until [`PidState::acknowledge`].
 //!
@@ -124,7 +124,7 @@ impl<T: Real> Pid<T> {
     ///
     /// The command is finite and within the limits for any input **and any state**, including a
     /// stored state and a state of another controller. A bad sample leaves the state unchanged,
-    /// except for the score of bad samples and their time.
+    /// except for the fault counter and the time of the bad samples.
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let mut velocity = at.velocity;
@@ -177,10 +177,10 @@ impl<T: Real> Pid<T> {
 
     /// The limit that acts on the command (range or slew-rate limit), for an outer loop.
     ///
-    /// If the gains of this law are positive, a command at its upper limit means that the outer
-    /// loop cannot get more. Pass this result to the [`applied`](Self::applied) of the outer loop.
-    /// The result is the same whether the range cuts the command or the integral just fills the
-    /// range.
+    /// If the gains of this law are positive and the command is at its upper limit, a larger output
+    /// of the outer loop has no effect. Pass this result to the [`applied`](Self::applied) of the
+    /// outer loop. The result is the same whether the range cuts the command or the integral just
+    /// fills the range.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
         let (command, limits) = (state.command(), &self.settings.limits);
@@ -236,11 +236,11 @@ impl<T: Real> Pid<T> {
 
     /// Continues a running state with other settings, without a jump of the command.
     ///
-    /// Every setting may differ. The integral moves as little as possible. At the last good
-    /// sample the new terms then add up to the applied command. If a limit cut the old sum off
-    /// and a limit still does, they add up to a value beyond that limit. The remaining change
-    /// is one step of the integral at the next sample. Limits that exclude the command take
-    /// priority.
+    /// Every setting may differ. The integral moves as little as possible: at the last good sample
+    /// the new terms add up to the applied command. If a limit cut off the old sum and cuts off the
+    /// new sum too, the new terms add up to a value beyond that limit. The only remaining change of
+    /// the command is one step of the integral at the next sample. Limits that exclude the command
+    /// take priority.
     ///
     /// A law without `k_i` returns the integral to zero: see [`PidSettings::k_i`]. A change to PIV
     /// requires earlier samples with a velocity. Without a good sample nothing changes. If the sum

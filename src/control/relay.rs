@@ -22,9 +22,9 @@
 //!   harmonics increase a, so k_u is too low: by 5 % for 1/(s + 1)³ and D = 0.62. If the mean
 //!   command `centre + d·(2·D − 1)` is used as the next centre, the half-periods become equal.
 //! - **Sampling.** The relay switches at the sample after the crossing, up to one `dt` late. The
-//!   measured period is the true period of this sampled loop. It exceeds the period of a continuous
-//!   relay by two `dt` on average and by four at most. A sampled controller has the same average
-//!   delay of half a `dt`, so no correction is necessary.
+//!   measured period is the true period of this sampled loop. This period exceeds the period of a
+//!   continuous relay by two `dt` on average and by four `dt` at most. A sampled controller has the
+//!   same average delay of half a `dt`, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the output leaves its range or the relay never switches back. The experiment then fails
 //!   with `OutputOutOfRange` or `NoOscillation`.
@@ -117,7 +117,7 @@ pub struct Relay<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum RelayFailure {
-    /// Too many bad samples, see [`Fallback`](super::Fallback). The value is the fault of the last
+    /// Too many bad samples; see [`Fallback`](super::Fallback). The value is the fault of the last
     /// one.
     BadSamples(Fault),
     /// The output was further from the reference than `most_deviation`.

@@ -38,7 +38,7 @@ pub enum Fault {
 /// Result of a step.
 ///
 /// ```text
-///           bad                  score reaches after·weight
+///           bad                fault counter ≥ after·weight
 ///  Good ─────────────▶ Held ───────────────────────────────▶ Safe
 ///   ▲ ◀───────────────  │                                      │
 ///   │     good                                                 │ acknowledge()
@@ -60,7 +60,7 @@ pub enum Status {
     /// Too many bad samples: the safe command is applied until
     /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
     ///
-    /// The value is the fault of the sample that brought the score to its limit.
+    /// The value is the fault of the sample that brought the fault counter to its limit.
     Safe(Fault),
 }
 
@@ -129,8 +129,9 @@ crate::checked! {
 
     /// Applies the safe command \[command unit\] from the `after`-th consecutive bad sample onward.
     ///
-    /// The safe command ignores the slew-rate limit, because the machine needs it at once. It is
-    /// applied until it is acknowledged; the first good sample after that starts from it.
+    /// The safe command ignores the slew-rate limit, because the machine needs it at once. The safe
+    /// command is applied until it is acknowledged; the first good sample after the acknowledgement
+    /// starts from the safe command.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"safe command"`; [`Error::OutOfRange`] with `"after"` if that is
@@ -146,8 +147,8 @@ crate::checked! {
 
     /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
     ///
-    /// With 1, every second sample may be bad without a fault. 0 is refused, because the score
-    /// would never rise.
+    /// With 1, every second sample may be bad without a fault. 0 is refused, because the fault
+    /// counter would never rise.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"`.
@@ -205,14 +206,14 @@ pub(crate) const OUTSIDE: &str = "the safe command lies within the limits";
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) enum Latch {
-    /// The loop is closed, and the score is zero.
+    /// The loop is closed, and the fault counter is zero.
     #[default]
     Closed,
     /// The safe command is applied, for this fault, until it is acknowledged.
     Safe(Fault),
     /// The fault is acknowledged: the next good sample starts from the applied command.
     Returning,
-    /// The loop is closed, and a good sample reduces the score: [`Held::may_step`].
+    /// The loop is closed, and a good sample reduces the fault counter: [`Held::may_step`].
     Counting,
     /// The loop is closed, and the next good sample of an adaptive law needs the drive's
     /// response: [`Held::tell`].
@@ -248,8 +249,8 @@ pub(crate) enum Latch {
 /// [`IterativeLearning`](super::IterativeLearning) reads `learns`.
 ///
 /// Use `AsCommanded` if the drive deviates slightly from the command for a reason other than a
-/// limit (an offset, a measured current). Otherwise the integral would stop until the difference is
-/// zero.
+/// limit (an offset, a measured current). `Command` with such a value would stop the integral until
+/// the difference is zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -289,7 +290,7 @@ impl<T: Real> Held<T> {
     /// Whether a good sample may set the command. If bad samples are remembered, this sample
     /// counts as good until [`bad_after_step`](Self::bad_after_step) reports otherwise.
     ///
-    /// The usual step therefore checks the latch alone, and not the score.
+    /// The usual step therefore checks the latch alone, and not the fault counter.
     #[inline]
     pub(crate) fn may_step(&mut self) -> bool {
         if self.latch == Latch::Closed {
@@ -314,7 +315,7 @@ impl<T: Real> Held<T> {
         }
     }
 
-    /// The same with another command to continue from: the score is kept.
+    /// The same with another command to continue from: the fault counter is kept.
     #[must_use]
     pub(crate) fn going_on_from(self, command: T) -> Self {
         Self {
@@ -345,8 +346,8 @@ impl<T: Real> Held<T> {
         self.latch == Latch::Returning
     }
 
-    /// Records a good sample without a call of [`may_step`](Self::may_step): the loop is
-    /// closed, and the score falls by one.
+    /// Records a good sample without a call of [`may_step`](Self::may_step): the loop is closed,
+    /// and the fault counter falls by one.
     pub(crate) fn good(&mut self) {
         self.score = self.score.saturating_sub(1);
         self.latch = Latch::Closed;
@@ -388,8 +389,8 @@ impl<T: Real> Held<T> {
         self.bad(fault, fallback)
     }
 
-    /// Counts a bad sample and applies the safe command at the limit of the score, unless it is
-    /// latched already.
+    /// Counts a bad sample and applies the safe command at the limit of the fault counter, unless
+    /// it is latched already.
     pub(crate) fn bad(&mut self, fault: Fault, fallback: &Fallback<T>) -> Status {
         let most = fallback.most();
         self.score = self.score.saturating_add(fallback.weight).min(most);

@@ -1,4 +1,4 @@
-//! The bounded-time step (derived in the module above).
+//! The bounded-time step; the documentation of the parent module derives it.
 
 use super::law;
 use super::number::Number;

@@ -10,8 +10,8 @@
 //! - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 //! - n ≥ 1: sharpness of the knee, larger is sharper.
 //!
-//! [`law`] implements this equation. It does not contain time. With `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1`
-//! and the path `p = rho·|dx|` it reads `dzeta/dp = f(zeta)`:
+//! [`law`] implements this equation, which does not contain time. With `d = sgn(x')`, `zeta =
+//! d·eta`, `c = 2·sigma - 1` and the path `p = rho·|dx|` it reads `dzeta/dp = f(zeta)`:
 //!
 //! - loading, `zeta >= 0`: `f = 1 - zeta^n`;
 //! - unloading, `zeta < 0`: `f = 1 + c·|zeta|^n`.
@@ -51,10 +51,10 @@
 //! uses a base-2 logarithm and exponential with an error of 4e-7 (`src/real/short.rs`). The bounds
 //! hold for any power function.
 //!
-//! - **Loading.** With `w = 1 - zeta`, `r = p·f/w`, `g = w·|f'|/f` the step is
-//!   `dzeta = w·(1 - 1/(1 + m)²)`, `m = r/2 + (3/8 - g/4)·r² + (5/16 - 3g/8 + g²/12)·r³`. This
-//!   is the Taylor series to `p³` without the `f''` term. As f is concave, `0 <= g <= 1`. No
-//!   coefficient is negative, so dzeta increases with the path and does not exceed w.
+//! - **Loading.** With `w = 1 - zeta`, `r = p·f/w`, `g = w·|f'|/f` the step is `dzeta = w·(1 -
+//!   1/(1 + m)²)`, `m = r/2 + (3/8 - g/4)·r² + (5/16 - 3g/8 + g²/12)·r³`. The step is the Taylor
+//!   series to `p³` without the `f''` term. As f is concave, `0 <= g <= 1`. No coefficient is
+//!   negative, so dzeta increases with the path and does not exceed w.
 //! - **Unloading.** The path from a to zero is `a·H`, `H = int_0^1 ds/(1 + x·s^n)`,
 //!   `x = c·a^n`; `t = p/(a·H)` and `f = 1 + x`. Up to `n·x = 3`, H is a convergent of its
 //!   continued fraction and `a` becomes `a·(1 - t)/(1 + α·t + β·t² + γ·t³)`. The coefficients
@@ -64,9 +64,9 @@
 //!   `s = α²·t/(α + δ·t/2)`, `δ = 1 + f·H²·(n·x - f) - k·α²`. The power is a fraction that
 //!   agrees to `s²`, and H has an error of up to 7 %. The error of H moves the crossing, not
 //!   the slope or curvature at the start.
-//! - **From zero.** The series `p = zeta·(1 + zeta^n/(n+1) + zeta^(2n)/(2n+1) + …)` is inverted
-//!   to `zeta = p/(1 + y + y²·(1 + n - n²)/(2n + 1))`, `y = p^n/(n + 1)`, up to `p = 1`. Beyond
-//!   `p = 1` the distance to saturation decays as above at the rate n.
+//! - **From zero.** The series `p = zeta·(1 + zeta^n/(n+1) + zeta^(2n)/(2n+1) + …)` is inverted to
+//!   `zeta = p/(1 + y + y²·(1 + n - n²)/(2n + 1))`, `y = p^n/(n + 1)`, up to `p = 1`. Beyond `p =
+//!   1` the distance to saturation decays as in the loading step, at the rate n.
 //!
 //! # Accuracy
 //! Error in `kappa_eta·eta` on `16·sin(pi·t)` at 1 kHz with the first identified set:
@@ -97,8 +97,8 @@
 //! `cargo bench --bench step` prints all of these numbers; the tests are in `tests/hysteresis`.
 //!
 //! # Slope
-//! In the bounded-time step, eta rises by at most `2·sigma` times the path. This is proved up to
-//! `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. From about `n = 12`
+//! In the bounded-time step, eta rises by at most `2·sigma` times the path. This bound is proved up
+//! to `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. From about `n = 12`
 //! on, the slope while unloading is up to 1.39 times this value. An inverse near its largest sigma
 //! may then have more than one solution.
 //!

@@ -1,4 +1,4 @@
-//! The splitting step, for any path length (derived in the module above).
+//! The splitting step, for any path length; the documentation of the parent module derives it.
 
 use super::law;
 use super::number::Number;

@@ -15,8 +15,8 @@ mod prewarped;
 /// low-pass  1/(s² + s/q + 1)       q = 1/√2: Butterworth; q = 1/2: critically damped
 /// notch     (s² + 1)/(s² + s/q + 1)   −3 dB width: frequency/q
 /// ```
-/// Both have a gain of exactly 1 at zero frequency: the output reaches a constant input to the
-/// last bit.
+/// Both filters have a gain of exactly 1 at zero frequency: the output reaches a constant input to
+/// the last bit.
 ///
 /// **Design.** The filter uses the bilinear transform with prewarping at the given sample time `T`.
 /// At `f` \[Hz\] the filter has the above response at `s = i·tan(π·f·T)/tan(π·frequency·T)`, so

@@ -127,8 +127,8 @@ crate::checked! {
         Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
-    /// The same configuration for positions modulo `period > 0` \[channel unit\], as from a
-    /// counter.
+    /// The same configuration for positions modulo `period > 0` \[channel unit\], such as the
+    /// positions of a counter.
     ///
     /// Between two good samples the axis must move by less than half a period.
     ///

@@ -51,13 +51,13 @@ crate::checked::stored! {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Implausible {
-    /// It is NaN or infinite.
+    /// The sample is NaN or infinite.
     NotFinite,
-    /// It lies outside the range.
+    /// The sample lies outside the range.
     OutOfRange,
-    /// It is further from the last plausible sample than the rate allows.
+    /// The sample is further from the last plausible sample than the rate allows.
     TooFast,
-    /// It has kept the same value for too long while the machine moved.
+    /// The sample has kept the same value for too long while the machine moved.
     Stuck,
 }
 
@@ -107,16 +107,15 @@ crate::checked! {
     /// whose age grows. The next reading may differ by `rate` times the time since the last
     /// *change*. A correct sensor never exceeds the rate, even if it repeats each reading several
     /// times. After a reading has repeated for `t` seconds, the check accepts a spike of up to
-    /// `rate·(t + dt)`. It then rejects the true reading for `distance/rate`, as after any gap.
-    /// [`with_sample_period`](Self::with_sample_period) bounds both. Set it for a sensor whose
-    /// readings repeat while the signal rests (an encoder), and for a sensor that is not
-    /// synchronous with the loop.
+    /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`, as after any
+    /// gap. [`with_sample_period`](Self::with_sample_period) bounds the spike and this time. Set it
+    /// for a sensor whose readings repeat while the signal rests (an encoder), and for a sensor
+    /// that is not synchronous with the loop.
     ///
-    /// During a gap the permitted distance grows with time. If a signal
-    /// has really moved, the check accepts it after the time `distance/rate`, rounded up to the next
-    /// sample. The same is true of an
-    /// encoder that was reset: [`Rates`](crate::signal::Rates) after this check then shows a
-    /// velocity of up to `rate`.
+    /// During a gap the permitted distance grows with time. If a signal has really moved, the check
+    /// accepts it after the time `distance/rate`, rounded up to the next sample. After this time it
+    /// also accepts the new position of an encoder that was reset: [`Rates`](crate::signal::Rates)
+    /// behind this check then shows a velocity of up to `rate`.
     /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps this velocity
     /// out of a feed-forward.
     ///
@@ -133,8 +132,8 @@ crate::checked! {
     ///
     /// Include the jitter of the sensor and of its bus. Every reading is then taken to be at most
     /// this old, and the next reading may differ by `rate·(sample_period + dt)`. This distance does
-    /// not depend on the number of repetitions or on the phase between sensor and loop. It is also
-    /// the largest accepted spike. Without a rate this setting has no effect.
+    /// not depend on the number of repetitions or on the phase between sensor and loop. The same
+    /// distance is the largest accepted spike. Without a rate this setting has no effect.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -173,10 +172,10 @@ crate::checked! {
 
 impl<T: Real> Plausible<T> {
     /// The same check with a stuck limit: `samples` equal readings in succession mean that the
-    /// sensor is stuck; with 0 this is never reported.
+    /// sensor is stuck; 0 disables this check.
     ///
-    /// A stuck sensor stays stuck until its reading changes, even at rest. If the machine cannot
-    /// move for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
+    /// A sensor counts as stuck until its reading changes, even at rest. If the machine cannot move
+    /// for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
     ///
     /// Equal readings count only while the machine moves. A coarse encoder repeats its reading at
     /// low speed: choose more samples than one of its counts lasts at that speed.
@@ -190,8 +189,8 @@ impl<T: Real> Plausible<T> {
 
     /// Checks a sample taken `dt` \[s\] after the previous one.
     ///
-    /// `moves` states whether the machine moves, so that the signal must change. A change of the
-    /// command or of another sensor indicates this, for example.
+    /// `moves` states whether the machine moves, so that the signal must change. For example, set
+    /// it if the command or another sensor has changed.
     ///
     /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must have
     /// the same value. A `dt` that is negative, NaN or infinite counts as

@@ -195,7 +195,8 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// The same rates for positions modulo `period > 0` \[channel unit\], as from a counter.
+    /// The same rates for positions modulo `period > 0` \[channel unit\], such as the positions of
+    /// a counter.
     ///
     /// The position of the motion is unwrapped: it continues when the counter wraps. Between two
     /// good samples the axis must move by less than half a period. `period > 2·|v|·longest_gap`
@@ -241,9 +242,9 @@ impl<T: Real> Rates<T> {
 
     /// The motion at a `position` \[channel unit\] measured `dt` \[s\] after the last call.
     ///
-    /// `dt` is the time since the last call, whether that sample was good or bad. It must be above
-    /// zero, even at the first call. A bad sample leaves the state unchanged except for the elapsed
-    /// time.
+    /// `dt` is the time since the last call, whether that sample was good or bad. `dt` must be
+    /// above zero, even at the first call. A bad sample leaves the state unchanged except for the
+    /// elapsed time.
     #[inline]
     pub fn step(&self, state: &mut RatesState<T>, position: T, dt: T) -> RatesOutput<T> {
         let status = match self.advance(state, position, dt) {

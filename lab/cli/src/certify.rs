@@ -17,7 +17,8 @@ pub struct Certify {
     /// Gains and rig [default: the gains of Nguyen et al. (2018) and the reference rig].
     #[arg(long, alias = "model", value_name = "FILE.toml")]
     gains: Option<PathBuf>,
-    /// Also print the assumptions, what has no bound and why, and each inequality of a proof.
+    /// Also print the assumptions, the quantities without a bound and the reasons, and each
+    /// inequality of a proof.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.

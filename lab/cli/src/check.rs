@@ -25,7 +25,7 @@ pub struct Check {
     /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
-    /// Write the signals over time as CSV: measured, the model as it is and with fitted gain and
+    /// Write the signals over time as CSV: measured, the model without and with a fitted gain and
     /// offset, both residuals, and each part of the model.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
@@ -47,7 +47,7 @@ impl Check {
         let mode = self.columns.mode.map(ModeName::mode);
         if mode.is_some_and(|mode| mode != given.mode()) {
             return Err(of_model(format!(
-                "--mode: the model is in {} mode",
+                "--mode must agree with the model: the model is in {} mode",
                 given.mode().name()
             )));
         }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub struct Compare {
     /// White noise of the torque sensors [N·m rms] [default: the noise that --gains were designed
     /// for, or the experiment's 0.28, or 0.02 with --effect]. At 0.28 the noise, amplified by the
-    /// gains of Nguyen et al. (2018), hides what a found effect improves.
+    /// gains of Nguyen et al. (2018), hides the improvement from a found effect.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
     /// Move the conduit during the trials, so that B, kappa_eta and T0 drift.
@@ -52,7 +52,8 @@ pub struct Compare {
     /// and estimates over time, with the conduit at rest and moved.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Also print the standard deviations over trials, the transient, and what each controller is.
+    /// Also print the standard deviations over trials, the transient, and a description of each
+    /// controller.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.

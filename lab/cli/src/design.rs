@@ -15,11 +15,12 @@ pub struct Design {
     /// Sampling rate of the controller [Hz].
     #[arg(long, value_name = "HZ")]
     rate: f64,
-    /// Delay from the command to its measured torque [s]: transport, computation, and the time
-    /// constants of drive, sensor and joint; half a sample is added for the zero-order hold.
+    /// Delay from a command to its effect in the measured torque [s]: transport, computation, and
+    /// the time constants of drive, sensor and joint; half a sample is added for the zero-order
+    /// hold.
     #[arg(long, value_name = "SECONDS")]
     delay: f64,
-    /// Noise of the measured torque [N·m rms], which sets the least slew-rate limit.
+    /// Noise of the measured torque [N·m rms], which determines the lowest slew-rate limit.
     #[arg(
         long,
         value_name = "N·m",
@@ -40,8 +41,8 @@ pub struct Design {
     /// firmware.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Also print the required margins, the admissible gains, and where the limits and bounds come
-    /// from.
+    /// Also print the required margins, the admissible gains, and the origin of the limits and
+    /// bounds.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.

@@ -13,8 +13,8 @@ pub struct Export {
     /// Write a C header that needs only the library of capi/.
     #[arg(long, required = true)]
     c: bool,
-    /// Write to this file instead of stdout. Its name is the prefix of all names in it, and must
-    /// contain a letter from a to z or a Greek letter.
+    /// Write to this file instead of stdout. The file name becomes the prefix of all names in the
+    /// header, and must contain a letter from a to z or a Greek letter.
     #[arg(long, value_name = "FILE.h")]
     out: Option<PathBuf>,
 }

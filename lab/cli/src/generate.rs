@@ -13,7 +13,7 @@ enum ModeName {
 
 #[derive(Args)]
 pub struct Generate {
-    /// What drives the transmission.
+    /// Input of the transmission: a torque or a displacement.
     #[arg(long, value_enum, default_value = "torque")]
     mode: ModeName,
     /// An effect that the baseline model will lack; may be given several times.
@@ -32,7 +32,7 @@ pub struct Generate {
     /// Noise of the output, rms, in the unit of the output.
     #[arg(long, default_value_t = 0.05)]
     noise: f64,
-    /// Correlation of the noise from sample to sample; 0 is white.
+    /// Correlation of the noise between successive samples; 0: white noise.
     #[arg(long, default_value_t = 0.0)]
     colour: f64,
     /// Half-width of a play in series, between the input and the transmission

@@ -50,7 +50,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Fit the baseline model, find and add the terms that it lacks, and compare the errors.
-    // `identify` and `validate` were the names up to 0.1 and remain for scripts; the help does not show
+    // `close` and `check` were the names up to 0.1 and remain for scripts; the help does not show
     // them.
     #[command(alias = "close")]
     Identify(close::Close),
@@ -63,9 +63,9 @@ enum Command {
     Compare(compare::Compare),
     /// Print the proved bounds of the tracking error and their assumptions.
     Certify(certify::Certify),
-    /// Print how small an effect the search would have found in a record.
+    /// Print the smallest effects that the search would have found in a record.
     Power(power::Power),
-    /// Plan the experiment that separates ambiguous terms: its motion, as CSV.
+    /// Plan a motion that separates ambiguous terms, and print it as CSV.
     Plan(plan::Plan),
     /// Export a model as C source for firmware.
     Export(export::Export),

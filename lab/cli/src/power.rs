@@ -20,7 +20,7 @@ pub struct Power {
     /// Trials of each amplitude, 5 to 200.
     #[arg(long, value_name = "K", default_value_t = TRIALS)]
     trials: usize,
-    /// Also print every effect, and how the trials are made.
+    /// Also print every effect, and the construction of the trials.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.

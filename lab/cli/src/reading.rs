@@ -17,14 +17,14 @@ pub struct Columns {
     /// Torque (tau_i to tau_o) or displacement (x to f) [default: from the column names].
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
-    /// Column of the time [default: `t`, `time`, `timestamp` or a unit such as `ms`]. Each column
-    /// may be followed by its unit: 'tick [ms]'.
+    /// Time column [default: `t`, `time`, `timestamp` or a unit such as `ms`]. The name of any
+    /// column may be followed by its unit: 'tick [ms]'.
     #[arg(long, value_name = "COL")]
     pub time: Option<String>,
-    /// Column of the input [default: `tau_i` or `x`].
+    /// Input column [default: `tau_i` or `x`].
     #[arg(long, value_name = "COL")]
     pub input: Option<String>,
-    /// Column of the output [default: `tau_o` or `f`].
+    /// Output column [default: `tau_o` or `f`].
     #[arg(long, value_name = "COL")]
     pub output: Option<String>,
     /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name; COL may be
@@ -47,8 +47,8 @@ pub struct Columns {
     /// Line of the column names, counted from 1 [default: detected].
     #[arg(long, value_name = "N")]
     pub header_line: Option<usize>,
-    /// Read only segment N of a text file in which the column names are repeated, counted from 1
-    /// [default: all segments as one record if the time continues].
+    /// Read only segment N, counted from 1, of a text file that repeats its column names [default:
+    /// all segments as one record if the time continues].
     #[arg(long, value_name = "N")]
     pub segment: Option<usize>,
     /// Sheet of an Excel workbook [default: the first one with a table].

@@ -107,7 +107,7 @@ fn errors(facts: &CheckFacts) -> Markup {
             .map_or_else(String::new, |u| format!(" {u}"))
     );
     let rows = [
-        row("as it is".to_owned(), facts.rmse),
+        row("unchanged".to_owned(), facts.rmse),
         row(fitted, facts.rmse_gain_offset),
     ];
     let rmse = format!("RMSE{}", in_brackets(record.unit.as_deref()));
@@ -144,7 +144,7 @@ fn reasons(facts: &CheckFacts) -> Markup {
     html! {
         @for one in &facts.depends_on {
             p {
-                "The residual depends on " (one.words) ": a curve over it removes "
+                "The residual depends on " (one.words) ": a curve over this variable removes "
                 (format!("{:.0}", 100.0 * one.share)) " % of the squared error ("
                 @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: the correlation time of the residual is too long" }
                 ")."

@@ -310,7 +310,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     let own = read(setup)?;
     match (setup, &own.model) {
         (Some(path), Some(_)) => Err(format!(
-            "{}: is a model; these certificates need gains, for the reference rig or for the rig in a table [rig]. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees for them",
+            "{}: is a model; these certificates need a file with gains, and with a table [rig] unless the rig is the reference rig. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees for them",
             path.display()
         )),
         _ => Ok(Certified {

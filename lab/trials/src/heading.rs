@@ -57,7 +57,7 @@ impl Heading {
     pub fn own(&self) -> Vec<String> {
         let mut all = Vec::new();
         if let Some(setup) = &self.setup {
-            all.push(format!("Gains and rig: those of {setup}."));
+            all.push(format!("Gains and rig: from {setup}."));
         }
         if let Some(gains) = &self.gains {
             let of_another = self.designed_model.as_ref().filter(|of| {
@@ -65,9 +65,9 @@ impl Heading {
                 self.model.as_ref().is_some_and(differs)
             });
             all.push(match of_another {
-                None => format!("Gains: those of {gains}."),
+                None => format!("Gains: from {gains}."),
                 Some(other) => format!(
-                    "Gains: those of {gains}, which were designed for {other} and not for this model."
+                    "Gains: from {gains}, which were designed for {other} and not for this model."
                 ),
             });
         }
@@ -87,7 +87,7 @@ impl Heading {
                 "Reference: {} between {low:.places$} and {high:.places$} N·m, within the range of the model's record.",
                 match self.gait {
                     true => "one push-off per second,",
-                    false => "that of Nguyen et al. (2018),",
+                    false => "as in Nguyen et al. (2018),",
                 }
             ));
         }

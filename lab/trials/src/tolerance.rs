@@ -59,7 +59,7 @@ static ASSUMPTIONS: &[&str] = &[
     "the rig is of that form: the joint's inertia, and the cable's position before the hysteresis, are neglected",
     "continuous time: samples much shorter than tau and 1/wn; hold, delay and the lags of drive and sensor act as a delay",
     "friction and load are bounded disturbances; f is any constant slope of the hysteresis",
-    "neither the limit of the command nor that of the observer is active, and no sample is bad",
+    "neither the limit of the command nor the limit of the observer is active, and no sample is bad",
 ];
 
 static OF_LEARNING: &[&str] = &[
@@ -68,7 +68,7 @@ static OF_LEARNING: &[&str] = &[
     "continuous time: many samples per cell; hold, delay and the lags of drive and sensor act as a delay",
     "a constant cycle time from 0.9 to 1.1 s, and a phase that is uniform in time",
     "friction and load repeat, or are bounded disturbances; f is any constant slope of the hysteresis",
-    "neither the limit of the command nor that of the learned values is active, and no sample is bad",
+    "neither the limit of the command nor the limit of the learned values is active, and no sample is bad",
     "the remaining error is not bounded: near and above the filter's corner frequency it may exceed the error without learning",
 ];
 

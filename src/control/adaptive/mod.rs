@@ -8,10 +8,10 @@
 //! from the bench as prior.
 //!
 //! **Two forms for two kinds of plant.** In sampled time e' creates an algebraic loop:
-//! - The form [as published](Form::AsPublished) closes the loop through a filtered difference.
-//!   It is for plants with inertia.
-//! - The [first-order](Form::FirstOrder) form solves the loop. It is for plants that respond
-//!   within a sample.
+//! - The form [as published](Form::AsPublished), for plants with inertia, closes the loop through a
+//!   filtered difference.
+//! - The [first-order](Form::FirstOrder) form, for plants that respond within a sample, solves the
+//!   loop.
 //!
 //! Each form diverges on the plant of the other form (tests `control_adaptive`).
 //!

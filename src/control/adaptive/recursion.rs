@@ -34,10 +34,10 @@ pub struct Disturbance<T> {
 ///
 /// On `y = alpha·u - theta'x - D` with u from the previous sample, the errors satisfy exactly `s⁺ =
 /// s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and `z⁺ = z + h·(s -
-/// lambda·z)`. This holds for any sequence of steps `h`, as long as no limit and no bound on z is
-/// active. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion.
-/// It bounds `|w|`, which contains the disturbance D. Errors that start inside its box of s and z
-/// stay inside.
+/// lambda·z)`. These equations hold for any sequence of steps `h`, as long as no limit and no bound
+/// on z is active. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion. It
+/// bounds `|w|`, which contains the disturbance D. Errors that start inside its box of s and z stay
+/// inside.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};

@@ -13,7 +13,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// A state whose first step on `input` commands `output` \[command unit\].
     ///
     /// The estimates are the initial ones. The accumulated error is chosen so that the law gives
-    /// `output`, feed-forward included. This is impossible if beta_hat is zero, z would leave its
+    /// `output`, feed-forward included. No such error exists if beta_hat is zero, z would leave its
     /// bounds, the limits exclude `output`, or the sample is bad. In these cases only the slew-rate
     /// limit or the lag softens the jump.
     ///
@@ -79,8 +79,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Starts so that the next step on `input` commands `output` \[command unit\].
     ///
     /// Like [`AdaptiveState::resume_from`], but for a running state. An unusable sample counts as a
-    /// bad one, and a latched safe command stays latched. The score of the bad samples is kept too,
-    /// so a restart after each bad sample does not prevent the safe command. `input.dt` is ignored.
+    /// bad one, and a latched safe command stays latched. The fault counter is kept too, so a
+    /// restart after each bad sample does not prevent the safe command. `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

@@ -60,8 +60,8 @@ pub struct AdaptiveOutput<T, const N: usize> {
 
 /// Every term of the law in one step, with the estimates that the step used.
 ///
-/// After a bad sample, or with a dropped regressor ([`Status::Degraded`]), `z` and the
-/// estimates are those of the state; the other terms are zero.
+/// After a bad sample, or with a dropped regressor ([`Status::Degraded`]), `z` and the estimates
+/// are the values in the state; the other terms are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -168,8 +168,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         }
     }
 
-    /// Resets to the start like [`new`](Self::new), but keeps the applied command, the score of bad
-    /// samples, and a latched safe command.
+    /// Resets to the start like [`new`](Self::new), but keeps the applied command, the fault
+    /// counter, and a latched safe command.
     ///
     /// A slew-rate limit and the first-order form continue from the applied command, and a bad
     /// sample holds it. The next good sample after an acknowledged fault starts from it. For a
@@ -185,8 +185,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Prepares a stored state for a restart after a power-off, when no command is applied.
     ///
     /// Like [`reset`](Self::reset), but the estimates are kept, and the command becomes the value
-    /// nearest to zero within the limits. A latched safe command stays latched, and the score of
-    /// the bad samples is kept. The first good sample starts from this command, as after
+    /// nearest to zero within the limits. A latched safe command stays latched, and the fault
+    /// counter is kept. The first good sample starts from this command, as after
     /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
     /// with the stored command.
     pub fn restore(&mut self, law: &Adaptive<T, N>) {

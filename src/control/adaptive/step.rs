@@ -24,9 +24,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     ///
     /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
     /// does not move further towards that limit. The estimates do not change while s requires more
-    /// than the limit allows. Both unwind at once.
+    /// than the limit allows. z and the estimates therefore unwind at once.
     ///
-    /// A bad sample leaves the state unchanged and holds the last good command, see
+    /// A bad sample leaves the state unchanged and holds the last good command; see
     /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt) is a bad
     /// sample. So is a finite sample that is so large that the law overflows ([`Fault::Overflow`]).
     /// The command is within the limits **for any state**, including a stored state and a state of

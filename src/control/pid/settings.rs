@@ -1,4 +1,4 @@
-//! Settings of a [`Pid`](super::Pid), before their checks.
+//! Unchecked settings of a [`Pid`](super::Pid).
 
 use super::Pid;
 use crate::control::status::OUTSIDE;

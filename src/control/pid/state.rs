@@ -111,9 +111,8 @@ impl<T: Real> PidState<T> {
     /// ignored. [`AntiWindup::Clamp`](super::AntiWindup::Clamp) limits this integral.
     ///
     /// A number that is not finite, or an overflow, leaves the state unchanged except for the count
-    /// of bad samples, and returns a fault. A latched safe command stays latched. The score of the
-    /// bad samples is kept too, so a restart after each bad sample does not prevent the safe
-    /// command.
+    /// of bad samples, and returns a fault. A latched safe command stays latched. The fault counter
+    /// is kept too, so a restart after each bad sample does not prevent the safe command.
     ///
     /// The integral absorbs the difference between `output` and the other terms at `at`. A law
     /// without `k_i` returns this difference to zero: see
@@ -162,8 +161,8 @@ impl<T: Real> PidState<T> {
     /// Clears the integral, the rate and the samples; keeps the applied command.
     ///
     /// A slew-rate limit continues from the applied command, and a latched safe command stays
-    /// latched. The score of the bad samples is kept too, so a reset at each bad sample does not
-    /// prevent the safe command. For a state without a command, assign [`PidState::new`].
+    /// latched. The fault counter is kept too, so a reset at each bad sample does not prevent the
+    /// safe command. For a state without a command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
             held: self.held,
@@ -174,8 +173,8 @@ impl<T: Real> PidState<T> {
     /// Prepares a stored state for a restart after a power-off, when no command is applied.
     ///
     /// The integral, the rate and the samples are cleared. The command becomes the value nearest to
-    /// zero within the limits. A latched safe command stays latched, and the score of the bad
-    /// samples is kept. The first good sample starts from this command without a jump, as after
+    /// zero within the limits. A latched safe command stays latched, and the fault counter is kept.
+    /// The first good sample starts from this command without a jump, as after
     /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
     /// with the stored command.
     ///

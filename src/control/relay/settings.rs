@@ -1,4 +1,4 @@
-//! Settings of a [`Relay`](super::Relay), before their checks.
+//! Unchecked settings of a [`Relay`](super::Relay).
 
 use super::Relay;
 use crate::control::status::OUTSIDE;

@@ -124,7 +124,7 @@ fn beyond(line: &Promise) -> String {
 }
 
 const NOTES: [&str; 3] = [
-    "range: the plant's alpha, zeta, c/K and latency all lie within the first percentage of the rig's values, and its wn lies within the second",
+    "range: alpha, zeta, c/K and latency of the plant deviate from the rig by at most the first percentage, and wn by at most the second",
     "beta within p %: beta_hat is bounded to p % around 1/alpha, where alpha is N_A·B of the rig",
     "the proofs cover the row `constant |D|` in f32, including rounding: with the gains in Table 2 of Nguyen et al. (2018), |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m, and if s and z start within their bounds (proofs/README.md)",
 ];

@@ -190,7 +190,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
             |p| format!("p {p:.1e}"),
         );
         format!(
-            "the residual depends on {}: a curve over it removes {:.0} % of the squared error ({tested})",
+            "the residual depends on {}: a curve over this variable removes {:.0} % of the squared error ({tested})",
             one.words,
             100.0 * one.share
         )
@@ -241,7 +241,7 @@ fn errors(check: &CheckFacts) -> Columns {
             times.map_or_else(open, |times| format!("{times:.1} ×")),
         ]);
     };
-    add("as it is", check.rmse);
+    add("unchanged", check.rmse);
     let Line { gain, offset } = &check.line;
     let fit = format!(
         "with gain {}, offset {} {unit}",

@@ -243,13 +243,12 @@ const CALIBRATED: &str = "The rig's drive gain and noise are chosen so that PI a
 
 const NOT_REPRODUCED: &str = "Two results of the paper are not reproduced: PIV better than PI, and the scatter between trials.";
 
-const OF_THE_REFERENCE_RIG: &str =
-    "Rig parameters that you do not set are those of the reference rig.";
+const OF_THE_REFERENCE_RIG: &str = "Rig parameters default to the values of the reference rig.";
 
 const RINGING: &str = "Gains from `bowden design` can cause ringing on a heavy joint that swings.";
 
 const CHANGED: &str =
-    "The rig or the gains differ from those of Nguyen et al. (2018): their Table 3 does not apply to this comparison.";
+    "The rig or the gains differ from Nguyen et al. (2018): Table 3 of that paper does not apply to this comparison.";
 
 const NOT_OF_A_GAIT: &str =
     "No bounds: they hold only for the reference signal of Nguyen et al. (2018).";
@@ -261,7 +260,7 @@ const NOT_OF_THIS_RIG: &str = "No bounds: they hold only for the reference rig. 
 
 const OF_CONTROLLERS: [(&str, &str); 5] = [
     ("matched-pi", "a PI with the effective integral gain of the adaptive law in Nguyen et al. (2018), 320. Its error shows what the gain achieves without adaptation."),
-    ("pi-observer", "a softer PI with a disturbance observer. It has no model of the friction. `bowden certify` prints for which plants its loop is stable."),
+    ("pi-observer", "a softer PI with a disturbance observer. It has no model of the friction. `bowden certify` prints the range of plants for which the loop is stable."),
     ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is the given value, and neither adapts."),
     ("adaptive-feed-forward", "the adaptive law, plus the inverse of the rig's own transmission or of the given model."),
     ("pi-learning", "the PI of Nguyen et al. (2018), plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles to learn."),

@@ -141,8 +141,8 @@ fn seed(outcome: &Outcome) -> Columns {
 const NOTES: [&str; 4] = [
     "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
     "Found terms: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
-    "Third regressor: the found terms enter the adaptive law with their bench values as priors. Its baseline is the law without them.",
-    "Quiet: the loop has a fifth of the gains of Nguyen et al. (2018). It shows what the full gains hide.",
+    "Third regressor: the found terms enter the adaptive law with their bench values as priors. The baseline for comparison is the law without these terms.",
+    "Quiet: the loop has a fifth of the gains of Nguyen et al. (2018). This loop shows improvements that the full gains hide.",
 ];
 
 /// Schema `bowden.compare/1`.

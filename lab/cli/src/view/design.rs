@@ -34,7 +34,7 @@ pub fn text(designed: &Designed, width: Width, verbose: bool) -> String {
     }
     let compare = match designed.bounds.output {
         Some(_) => "bowden compare --model MODEL.toml --gains GAINS.toml",
-        None => "`bowden compare` refuses this model: it has no reference for it",
+        None => "`bowden compare` refuses this model: its record gives no reference",
     };
     let compare = match verbose {
         true => compare.to_owned(),

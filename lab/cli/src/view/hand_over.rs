@@ -92,9 +92,9 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>, width: Width) -> String
         let names = names.join(", ");
         lines.push(match &hand.model {
             // The model above is the exported one.
-            Some(_) => format!("exported without {names}, refitted"),
+            Some(_) => format!("exported model: refitted without {names}"),
             None => format!(
-                "exported: held-out {} without {names}, refitted; {} with the model above",
+                "exported model, refitted without {names}: held-out {}; the model above: {}",
                 per_cent(hand.nrmse.held_out),
                 per_cent(hand.as_fitted.held_out)
             ),

@@ -12,7 +12,7 @@ pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     heading(&mut out, width, ("bowden plan", record), (colour, &answer));
     if let Some(Planned { experiment, .. }) = &plan.planned {
         let words = format!(
-            "It takes {:.1} s. Its largest speed is {:.2} times that of the record.",
+            "The motion takes {:.1} s, at up to {:.2} times the largest recorded speed.",
             experiment.seconds, experiment.speed
         );
         prose(&mut out, width, &words);
@@ -29,7 +29,7 @@ pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     block(&mut out, width, "Record", &plan.undescribed);
     let next = match (&plan.planned, &plan.undescribed) {
         (Some(_), _) => "record the motion · bowden identify RECORD NEW_RECORD",
-        (None, Some(_)) => "correct what the verdict names, record again · bowden identify RECORD",
+        (None, Some(_)) => "correct the named cause, record again · bowden identify RECORD",
         (None, None) if is_settled(plan) => "bowden validate MODEL.toml NEW_RECORD",
         (None, None) => "bowden identify -v RECORD (alternatives and their tests)",
     };
@@ -78,7 +78,7 @@ fn ambiguous(plan: &Plan) -> Option<String> {
         ([], true) => None,
         ([], false) => Some("No term is ambiguous.".to_owned()),
         (pairs, true) => Some(format!(
-            "It does not separate {}.{motion}",
+            "The motion does not separate {}.{motion}",
             pairs.join(", nor ")
         )),
         (pairs, false) => Some(format!(

@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 
 /// The method, in one sentence.
-const SIMULATED: &str = "each effect, at the middle one of its trial shapes, is added to the last model's prediction and to the residual, which is shifted circularly and changed in sign; each trial is a complete identification, with the search, its refits and its tests; an effect counts as found if its family is that of a term or of an alternative";
+const SIMULATED: &str = "each trial record is the sum of the last model's prediction, its residual (shifted circularly, with changes of sign), and one effect at the middle of its trial shapes; each trial is a complete identification, with search, refits and tests; an effect counts as found if a term or an alternative belongs to its family";
 
 #[derive(Serialize)]
 struct Whole<'a> {

@@ -244,7 +244,7 @@ fn unlike(facts: &Facts) -> Option<String> {
     let unit = unit.map_or_else(String::new, |u| format!(" {u}"));
     let shown = |v: f64| number(v, Some(0.05 * v));
     Some(format!(
-        "the output's standard deviation is {}{unit} on the fit segment and {}{unit} on the held-out one: their percentages are not comparable",
+        "the output's standard deviation is {}{unit} on the fit segment and {}{unit} on the held-out segment: their percentages are not comparable",
         shown(facts.deviation.fit),
         shown(facts.deviation.held_out)
     ))

@@ -35,10 +35,11 @@ p             Probability that chance alone explains as much, from the exact sig
               sixteen blocks. A term is significant if p is at most 0.01 divided by the number of
               families times channels.
 blocks improved
-              On how many of the sixteen blocks the term lowers the error, with its coefficients
-              fitted to the other fifteen.
-alternatives  Effects that explain this record equally well: each removes at least 90 % of what
-              the term removes, and its error is at most twice as large. The simplest one is named.
+              Number of the sixteen blocks on which the term lowers the error, with its
+              coefficients fitted to the other fifteen.
+alternatives  Effects that explain this record equally well: each removes at least 90 % of the
+              squared error that the term removes, and leaves at most twice the squared error.
+              The simplest one is named.
 redundant     A part of the baseline model whose removal raises the held-out error by less than a
               tenth.
 rejected      Terms that were tried, with the reason: not significant (p is too large), not on

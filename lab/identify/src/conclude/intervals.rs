@@ -381,7 +381,7 @@ fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refus
         (None, Some(with)) if wide => format!("interval wider than half its value, and {with}"),
         (None, Some(with)) => with,
         (None, None) if wide => "interval wider than half its value".to_owned(),
-        (None, None) => "no part of the output depends on it alone".to_owned(),
+        (None, None) => "no part of the output depends on this parameter alone".to_owned(),
     };
     Refusal {
         reason,

@@ -64,7 +64,7 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
     format!(
-        "The baseline model lacks {}, and something that matches no effect in the catalogue: with the named effects the held-out error goes from {} to {} of the output's standard deviation, and with a curve for the rest to {}.",
+        "The baseline model lacks {}, and something that matches no effect in the catalogue: with the named effects the held-out error goes from {} to {} of the output's standard deviation, and with an additional curve to {}.",
         added.join(", then "),
         held_out(&ledger.declared.rmse),
         held_out(named),

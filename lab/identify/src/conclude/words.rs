@@ -104,7 +104,7 @@ impl Finding {
                     false => "",
                 };
                 format!(
-                    "The residual depends on {variable}; to first order, the best one or two effects in the catalogue explain {:.0} % of what a curve over it explains{but}.",
+                    "The residual depends on {variable}; to first order, the best one or two effects in the catalogue explain {:.0} % of the squared error that a curve explains{but}.",
                     100.0 * by_effects
                 )
             }
@@ -128,7 +128,7 @@ impl Finding {
                 let all: Vec<String> = all.collect();
                 format!("The measurement is defective: {}. Correct the cause and record again.", all.join(", "))
             }
-            Self::OneStroke { input } => format!("`{input}` reverses fewer than two times on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions."),
+            Self::OneStroke { input } => format!("`{input}` reverses less than twice on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions."),
             Self::InputIsVelocity { input } => format!("Is `{input}` a velocity? The input must be a displacement: use the position as the input, or integrate this column."),
             Self::Extrapolation(Outside { channel, unit, seen, here, .. }) => {
                 let unit = spaced(unit.as_deref());
@@ -150,31 +150,31 @@ impl Finding {
                     true => " `--per-file gains` fits an offset for each file.",
                     false => "",
                 };
-                format!("The preload steps at the start of `{path}`: does the zero of a sensor differ in this file?{gains}")
+                format!("The preload changes in a step at the start of `{path}`. Does a sensor have a different zero in this file?{gains}")
             }
             Self::CoarseSensor { channel, unit } => coarse(channel, unit.as_deref()),
             Self::OutputLeads { seconds } => format!("In the model the output precedes the input by about {:.1} ms, which is not causal: were both logged with the same clock? If they were, the model lacks an effect that looks like a lead.", 1e3 * seconds),
             Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
-                true => format!("The output moves {:.0} times less on the held-out segment than on the fit segment: their percentages are not comparable.", fit / held_out),
-                false => format!("The output moves {:.0} times more on the held-out segment than on the fit segment: their percentages are not comparable.", held_out / fit),
+                true => format!("The output moves {:.0} times as much on the fit segment as on the held-out segment: the percentages of the two segments are not comparable.", fit / held_out),
+                false => format!("The output moves {:.0} times as much on the held-out segment as on the fit segment: the percentages of the two segments are not comparable.", held_out / fit),
             },
             // About the model.
             Self::PreslidingIsBacklash { sign_tells } => {
                 let own = match sign_tells {
-                    true => "; with the sign of kappa_x, presliding is a slipping spring; with the opposite sign, it is slack",
+                    true => "; with the sign of kappa_x the term is a slipping spring; with the opposite sign, it is slack",
                     false => "",
                 };
-                format!("Presliding and backlash are one function with opposite signs: either name is right{own}.")
+                format!("Presliding and backlash are the same function with opposite signs: either name is right{own}.")
             }
             Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input: is it a drift of `{output}`, for example of a sensor that warms up? A record of a rig that has run for longer would show which of the two it is."),
             Self::HysteresisLeftOut => "The baseline hysteresis is excluded from the model: this record cannot distinguish it from a spring and an offset.".to_owned(),
             Self::HysteresisCancelled { share } => format!(
-                "On this record the hysteresis differs from a spring and an offset by only {} of the output: its gain and those of the spring and the offset nearly cancel, and the model holds only within the recorded range.",
+                "On this record the hysteresis differs from a spring and an offset by only {} of the output: its gain and the gains of the spring and the offset nearly cancel, and the model holds only within the recorded range.",
                 percent(*share)
             ),
             Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.", terms.join(", ")),
             Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque: the friction of the cable grows with its tension, as with a rope around a post.".to_owned(),
-            Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times the temperature: the friction changes with `{channel}`."),
+            Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times `{channel}`: the friction changes with the temperature."),
             Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises: the sign of one of them is probably reversed, and `bowden design` refuses the model until this is corrected."),
             Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the output's loop (kappa_eta {kappa_eta:.3}): its gain and the effect of {} partly cancel, so neither alone is a property of the rig.", terms.join(", ")),
             Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need it: does it measure the output, as the angle behind a spring does? If so, omit its column."),
@@ -208,7 +208,7 @@ impl Finding {
                     || "an unknown error on its own record (its file states none)".to_owned(),
                     |own| format!("{} on the held-out part of its own record", percent(own)),
                 );
-                format!("The model does not hold: its error is {} of this record's output, compared with {own}; with another gain and offset it is {}.", percent(*error), percent(*with_line))
+                format!("The model does not hold: its error is {} of this record's output, compared with {own}; with a different gain and offset it is {}.", percent(*error), percent(*with_line))
             }
             Self::ErrorAtLimit { error, limit } => format!("This record is inconclusive: the error is {} of its output, and the limit is {}. Use a record of the same motion as the model's own.", percent(*error), percent(*limit)),
             Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file states no error to compare it with.", percent(*error)),
@@ -221,7 +221,7 @@ impl Finding {
                 };
                 format!("{what}: with this correction the error is {}; the limit is {}.", percent(*error), percent(*limit))
             }
-            Self::OutputUnitDiffers { output } => format!("Is `{output}` in another unit here, or calibrated differently?"),
+            Self::OutputUnitDiffers { output } => format!("Does `{output}` have a different unit or calibration here?"),
             Self::ModelInexact { own } => format!("The model was not exact on its own record (an error of {}): on another motion such a model may have a larger error although the rig is the same.", percent(*own)),
             Self::ModelNotTransferable => "The model's own verdict was `not-transferable`: do not use it on another record.".to_owned(),
             Self::ResidualDependsOn { variable: None, .. } => "The residual depends on no measured quantity, as far as this record shows.".to_owned(),
@@ -250,7 +250,10 @@ impl Finding {
                 format!("CHECK THE COLUMNS: {output} integrates {input}")
             }
             Self::FilesScaled { files, .. } => {
-                format!("CHECK {}: its output has another gain", files.first()?.path)
+                format!(
+                    "CHECK {}: its output has a different gain",
+                    files.first()?.path
+                )
             }
             Self::LoggedDifferently(suspicion) => {
                 let place = suspicion.path.as_deref().unwrap_or("THE COLUMNS");
@@ -352,9 +355,11 @@ fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
 fn question(alteration: &Alteration) -> String {
     match alteration {
         Alteration::Reversed { column } => format!("Does `{column}` have the opposite sign"),
-        Alteration::Scaled { column, .. } => format!("Is `{column}` in another unit"),
+        Alteration::Scaled { column, .. } => format!("Does `{column}` have a different unit"),
         Alteration::Swapped { column, other } => format!("Are `{column}` and `{other}` swapped"),
-        Alteration::Late { .. } => "Is the output late, or logged with another clock".to_owned(),
+        Alteration::Late { .. } => {
+            "Is the output late, or logged with a different clock".to_owned()
+        }
     }
 }
 
@@ -377,7 +382,10 @@ fn suspected(suspicion: &Suspicion) -> String {
                 true => " (degrees instead of radians?)",
                 false => "",
             };
-            format!("With it divided by {}{degrees}", four_digits(*factor))
+            format!(
+                "With its values divided by {}{degrees}",
+                four_digits(*factor)
+            )
         }
         Alteration::Swapped { .. } => "With the two columns swapped".to_owned(),
         Alteration::Late { seconds } => {

@@ -84,7 +84,7 @@ pub(super) fn useless(hand: &HandOver) -> Option<String> {
     let error = calmed.unwrap_or(hand.causal.held_out);
     (error > 1.0).then(|| {
         format!(
-            "Do not use this model as it is: run sample by sample, its held-out error is {} of the output's standard deviation, more than that of a constant.",
+            "Do not use this model in firmware: sample by sample, its held-out error is {} of the output's standard deviation, larger than the error of a constant.",
             percent(error)
         )
     })

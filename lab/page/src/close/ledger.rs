@@ -242,7 +242,7 @@ fn names(facts: &Facts) -> Markup {
     html! {
         (table(caption, &head, 2..5, &rows))
         p class="note" {
-            "p: probability of so large an improvement by chance, if the effect were absent. Blocks improved: blocks on which the effect reduces the error."
+            "p: probability of an improvement at least this large by chance alone, without the effect. Blocks improved: blocks on which the effect reduces the error."
         }
     }
 }
@@ -270,7 +270,7 @@ pub(crate) fn parts(figures: &Figures) -> Markup {
         })
         .collect();
     table(
-        "Standard deviation of each part of the model, relative to that of the output",
+        "Standard deviation of each part of the model, relative to the standard deviation of the output",
         &["part", "share"],
         2..2,
         &rows,

@@ -245,7 +245,7 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
     .key("interval", "95 %");
     html! {
         p {
-            (unknown.sentence) " A free curve over it removes " (format!("{:.1}", 100.0 * unknown.share))
+            (unknown.sentence) " A free curve over this variable removes " (format!("{:.1}", 100.0 * unknown.share))
             " % of the squared error (p " (format!("{:.1e}", unknown.p)) "); " (unknown.kept)
             (in_brackets(unit)) "."
         }

@@ -75,7 +75,7 @@ const PEAK_OF_NOISE: f64 = 6.0;
 const WORTH: f64 = 1.1;
 
 /// Why there is neither a reference nor a certificate.
-pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than its hysteresis, so it reaches no torque in both directions, and there is no reference; record a larger stroke";
+pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than the hysteresis: no torque is reached in both directions, so there is no reference; record a larger stroke";
 
 /// Gain margin that a loop must keep whose every step is the longest one.
 const LONG_MARGIN: f64 = 1.4;
@@ -468,7 +468,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
         );
     } else if let Some(why) = &adaptive.unproved {
         notes.push(format!(
-            "`bowden certify` does not prove this file as it is, because {why}; the certificate above ignores the limits and the slew-rate limit"
+            "`bowden certify` proves no bound for this file, because {why}; the certificate above ignores the limits and the slew-rate limit"
         ));
     }
     if plant.own_delay > 0.0 {

@@ -67,7 +67,7 @@ fn head(designed: &Designed) -> String {
     line!(out, "//!");
     line!(
         out,
-        "//! {} Hz, {} s from the command to its measured torque, {} N·m for one command unit.",
+        "//! {} Hz, {} s from a command to its effect in the measured torque, {} N·m for one command unit.",
         for_.rate,
         for_.delay,
         for_.drive_gain
@@ -237,7 +237,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         1 => line!(out, "/// Call it once per sample."),
         _ => line!(
             out,
-            "/// Call it on one sample in {every}: the plant must respond within its step."
+            "/// Call it on one sample in {every}: the plant must respond within one step."
         ),
     }
     line!(out, "#[allow(dead_code)]");

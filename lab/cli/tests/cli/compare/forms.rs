@@ -140,5 +140,5 @@ fn the_papers_results_stand_beside_the_papers_rig_and_gains_alone() {
     }
     // The table says what runs.
     assert!(with(&["--inertia", "0.4"]).contains("Rig: inertia 0.4 kg·m²."));
-    assert!(with(&["--model", &weak]).contains("Gains and rig: those of gains.toml."));
+    assert!(with(&["--model", &weak]).contains("Gains and rig: from gains.toml."));
 }

@@ -122,7 +122,7 @@ fn friction_that_falls_with_a_measured_temperature_is_named() {
     assert_eq!(closed.names(), ["position-hysteresis"]);
     assert_eq!(closed.json["terms"][0]["channel"], "temperature");
     assert_eq!(closed.verdict(), "explained");
-    closed.says(&["the friction changes with `temperature`"]);
+    closed.says(&["the friction changes with the temperature"]);
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn a_model_that_a_constant_beats_on_a_chip_is_not_praised_first() {
     assert!(
         closed
             .sentence()
-            .starts_with("Do not use this model as it is"),
+            .starts_with("Do not use this model in firmware"),
         "{}",
         closed.sentence()
     );

@@ -223,7 +223,7 @@ impl Aim {
                 self.left_now, self.left_then
             ),
             None => format!(
-                "{what}: {:.1} times as visible as in the present record (share of it that other terms can imitate {now:.3} → {then:.3})",
+                "{what}: {:.1} times as visible as in the present record (share that other terms can imitate: {now:.3} → {then:.3})",
                 self.left_then
             ),
         }
