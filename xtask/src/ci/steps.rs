@@ -99,6 +99,11 @@ fn features(shell: &Shell) -> Done {
             ))?;
         }
     }
+    for set in ["", "mat", "parquet", "xlsx"] {
+        shell.run(&format!(
+            "cargo clippy -p bowden-record --no-default-features --features={set} -- -D warnings"
+        ))?;
+    }
     Ok(())
 }
 
