@@ -157,6 +157,7 @@ macro_rules! stored {
 pub(crate) use stored;
 
 /// Whether all numbers of a state are finite: any other number could persist indefinitely.
+#[cfg_attr(not(any(feature = "serde", kani)), allow(dead_code))]
 pub(crate) trait Finite {
     fn all_finite(&self) -> bool;
 }

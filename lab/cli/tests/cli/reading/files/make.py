@@ -53,17 +53,6 @@ def workbook(name, rows):
     book.save(FOLDER / name)
 
 
-def workbook(name, rows):
-    """A workbook whose first sheet has words alone."""
-    book = openpyxl.Workbook()
-    cover, sheet = book.active, book.create_sheet("Run")
-    cover.title = "Rig"
-    cover["A1"], cover["B1"] = "Operator", "Ann"
-    for row in rows:
-        sheet.append(row)
-    book.save(FOLDER / name)
-
-
 def class_of(data, name, **others):
     data.attrs["MATLAB_class"] = np.bytes_(name)
     for attribute, value in others.items():
@@ -113,7 +102,6 @@ np.savez_compressed(
     FOLDER / "vectors.npz", t=t, x_mm=x, f_N=f, load_N=load, rate=256.0, who="rig 3"
 )
 workbook("vectors.xlsx", [names, *zip(t.tolist(), x.tolist(), f.tolist(), load.tolist())])
-workbook("vectors.xlsx", [names, *zip(t.tolist(), x.tolist(), f.tolist(), load.tolist())])
 # The same in version 7.3: chunks, shuffled and compressed, as MATLAB writes long vectors.
 file = Hdf5("vectors_7_3.mat")
 for name, values in zip(names, [t, x, f, load]):
@@ -136,11 +124,6 @@ savemat(FOLDER / "nameless.mat", {"data": matrix.T}, do_compression=True)
 np.savez(FOLDER / "matrix.npz", data=matrix.T, names=np.array(names))
 log = np.rec.fromarrays([t, x, f, load], dtype=[(name, "<f8") for name in names])
 np.savez_compressed(FOLDER / "structured.npz", log=log)
-np.save(FOLDER / "structured.npy", log)
-np.save(FOLDER / "matrix.npy", matrix)
-# A seed of the fuzz target.
-workbook("tiny.xlsx", [names[:3], *zip(t[:9].tolist(), x[95:104].tolist(), f[:9].tolist())])
-np.save(FOLDER / "tiny.npy", np.array([t[:9], x[95:104], f[:9]]).T)
 np.save(FOLDER / "structured.npy", log)
 np.save(FOLDER / "matrix.npy", matrix)
 # A seed of the fuzz target.
