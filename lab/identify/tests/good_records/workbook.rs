@@ -37,7 +37,11 @@ fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
     let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
     let package = "http://schemas.openxmlformats.org/package/2006/relationships";
     let (mut list, mut relations) = (String::new(), String::new());
-    let mut files = vec![("[Content_Types].xml".to_owned(), "<Types/>".to_owned())];
+    let root = format!("<Relationships xmlns=\"{package}\"><Relationship Id=\"rId1\" Type=\"{office}/officeDocument\" Target=\"xl/workbook.xml\"/></Relationships>");
+    let mut files = vec![
+        ("[Content_Types].xml".to_owned(), "<Types/>".to_owned()),
+        ("_rels/.rels".to_owned(), root),
+    ];
     for (index, (name, text)) in sheets.iter().enumerate() {
         let number = index + 1;
         list += &format!("<sheet name=\"{name}\" sheetId=\"{number}\" r:id=\"rId{number}\"/>");
