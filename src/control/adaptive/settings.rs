@@ -172,15 +172,28 @@ crate::checked! {
     }
 
     fn longest[, const N: usize](s: &AdaptiveSettings<T, N>) -> T {
-        match s.form {
-            Form::FirstOrder { plant_gain, .. } if largest_step(s, plant_gain) < s.longest_dt => {
-                largest_step(s, plant_gain)
-            }
-            _ => s.longest_dt,
+        let Form::FirstOrder { plant_gain, .. } = s.form else {
+            return s.longest_dt;
+        };
+        let largest = largest_step(s, plant_gain);
+        if largest < s.longest_dt {
+            largest
+        } else {
+            s.longest_dt
         }
     }
 
-    fn check[, const N: usize](s: &AdaptiveSettings<T, N>) -> Result<(), Error> {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
+    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
+    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
+    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
+    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
+    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
+    pub fn try_new(settings: AdaptiveSettings<T, N>) {
+        let s = &settings;
         above_zero!(s.gain, "gain");
         above_zero!(s.lambda, "lambda");
         above_zero!(s.epsilon, "epsilon");
@@ -228,22 +241,6 @@ crate::checked! {
                     ));
                 }
             }
-        }
-        Ok(())
-    }
-
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
-    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
-    /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
-    ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
-    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
-    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
-    pub fn try_new(settings: AdaptiveSettings<T, N>) {
-        if let Err(error) = check(&settings) {
-            return Err(error);
         }
         Ok(Adaptive { longest: longest(&settings), settings })
     }

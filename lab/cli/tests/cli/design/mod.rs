@@ -117,66 +117,6 @@ fn from_a_record_over_its_model_to_gains_that_settle_on_the_rig_of_that_model() 
 }
 
 #[test]
-fn the_table_says_whose_rig_gains_and_reference_they_are_and_keeps_the_papers_out() {
-    let place = Place::new();
-    let (model, gains) = (place.model(), place.path("gains.toml"));
-    let told = said(&[
-        "design",
-        &model,
-        "--rate",
-        "500",
-        "--delay",
-        "0.006",
-        "--drive-gain",
-        "0.6",
-        "--verbose",
-        "--out",
-        &gains,
-    ]);
-    for words in [
-        "bowden design · model.toml · 500 Hz",
-        "slope ",
-        "  PI: k_p ",
-        "admissible: ",
-        "A derivative ",
-        "Limits  command ",
-        "slew rate ",
-        "longest dt ",
-        "Adapt ",
-        "Note ",
-    ] {
-        assert!(told.contains(words), "{words} is not in\n{told}");
-    }
-    let fixed = [
-        "compare",
-        "--model",
-        &model,
-        "--gains",
-        &gains,
-        "--noise",
-        "0.02",
-        "--seconds",
-        "8",
-        "--seeds",
-        "1",
-    ];
-    let table = said(&[&fixed, LIGHT.as_slice()].concat());
-    for words in [
-        "simulated reference rig with the transmission of model.toml",
-        "Gains: from gains.toml.",
-        "No bounds here: `bowden certify GAINS.toml`",
-        "Reference: as in Nguyen et al. (2018), between ",
-        "Rig: inertia 0.002 kg·m², damping 0.5 N·m·s/rad.",
-    ] {
-        assert!(table.contains(words), "{words} is not in\n{table}");
-    }
-    assert!(
-        !table.contains("0.5991") && !table.contains("matched-pi"),
-        "{table}"
-    );
-}
-
-#[test]
 fn gains_rs_compiles_without_warnings_and_is_the_gains() {
     let place = Folder::new();
     let model = straight(&place);
