@@ -64,13 +64,6 @@ pub struct Adaptive<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    fn assumed(settings: AdaptiveSettings<T, N>) -> Self {
-        Self {
-            longest: settings::longest(&settings),
-            settings,
-        }
-    }
-
     /// The settings of this law.
     pub fn settings(&self) -> &AdaptiveSettings<T, N> {
         &self.settings
@@ -120,7 +113,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 impl<T: Real> Adaptive<T, 2> {
     /// The law with Table 2 of Nguyen et al. (2018): [`AdaptiveSettings::paper`].
     pub fn paper() -> Self {
-        Self::assumed(AdaptiveSettings::paper())
+        let settings = AdaptiveSettings::paper();
+        Self {
+            // Of the form as published.
+            longest: settings.longest_dt,
+            settings,
+        }
     }
 }
 

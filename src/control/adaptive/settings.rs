@@ -171,18 +171,6 @@ crate::checked! {
         Ok(())
     }
 
-    fn longest[, const N: usize](s: &AdaptiveSettings<T, N>) -> T {
-        let Form::FirstOrder { plant_gain, .. } = s.form else {
-            return s.longest_dt;
-        };
-        let largest = largest_step(s, plant_gain);
-        if largest < s.longest_dt {
-            largest
-        } else {
-            s.longest_dt
-        }
-    }
-
     /// Checks the settings.
     ///
     /// # Errors
@@ -213,14 +201,10 @@ crate::checked! {
             i += 1;
         }
         above_zero!(s.longest_dt, "longest_dt");
-        if let Some(safe) = s.fallback.command() {
-            if safe < s.limits.low() || safe > s.limits.high() {
-                return Err(Error::Inadmissible(OUTSIDE));
-            }
-        }
-        match s.form {
+        let longest = match s.form {
             Form::AsPublished { time_constant } => {
                 not_below_zero!(time_constant, "time_constant");
+                s.longest_dt
             }
             Form::FirstOrder { step, plant_gain } => {
                 above_zero!(step, "step");
@@ -240,9 +224,19 @@ crate::checked! {
                         "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1",
                     ));
                 }
+                if largest < s.longest_dt {
+                    largest
+                } else {
+                    s.longest_dt
+                }
+            }
+        };
+        if let Some(safe) = s.fallback.command() {
+            if safe < s.limits.low() || safe > s.limits.high() {
+                return Err(Error::Inadmissible(OUTSIDE));
             }
         }
-        Ok(Adaptive { longest: longest(&settings), settings })
+        Ok(Adaptive { settings, longest })
     }
 }
 
