@@ -167,7 +167,8 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
     };
     assert_eq!(refused(&law, |_| {}), None);
     let one_sign = "gain and nominal gain must have the same sign";
-    let cases: [(Error, fn(&mut PlantRange)); 7] = [
+    type Change = fn(&mut PlantRange);
+    let cases: [(Error, Change); 7] = [
         (Error::OutOfRange("gain"), |r| r.gain.low = -0.1),
         (Error::OutOfRange("natural_frequency"), |r| {
             r.natural_frequency.low = r.natural_frequency.high + 1.0;

@@ -49,7 +49,8 @@ fn each_form_has_its_own_certificates() {
 
 #[test]
 fn a_plant_that_is_none_is_named() {
-    let cases: [(Error, fn(&mut Plant<f64, 1>)); 4] = [
+    type Change = fn(&mut Plant<f64, 1>);
+    let cases: [(Error, Change); 4] = [
         (Error::OutOfRange("alpha"), |p| p.alpha.low = 0.0),
         (Error::NonFinite("delta"), |p| p.delta = f64::NAN),
         (Error::OutOfRange("reference"), |p| p.reference = -1.0),

@@ -272,7 +272,8 @@ fn a_certificate_that_cannot_be_stated_names_the_reason() {
     type Settings = AdaptiveSettings<f32, 2>;
     let (good, plant) = (own::<f32>(), own_plant());
     let literal = |s: &mut Settings| s.form = Form::AsPublished { time_constant: 0.0 };
-    let cases: [(Error, fn(&mut Settings)); 5] = [
+    type Change = fn(&mut Settings);
+    let cases: [(Error, Change); 5] = [
         (
             Error::Inadmissible("the gains must have the lag form"),
             literal,

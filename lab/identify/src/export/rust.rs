@@ -169,10 +169,8 @@ impl ModelFile {
         }
         let fixed = self.is_fixed();
         for term in &self.terms {
-            if fixed || !term.shapes.is_empty() {
-                let own = variant(term.effect()?.name());
-                all.insert(format!("bowden::effect::{own}"));
-            }
+            let own = variant(term.effect()?.name());
+            all.insert(format!("bowden::effect::{own}"));
         }
         let mut add = |used: bool, name: &str| {
             if used {
@@ -363,10 +361,9 @@ impl ModelFile {
             true => own.clone(),
             false => format!("{own}::try_new({})?", values.join(", ")),
         };
-        match (self.is_fixed(), values.is_empty()) {
-            (true, _) => line!(out, "            effect: {built},"),
-            (false, true) => line!(out, "            effect: Effect::{own},"),
-            (false, false) => line!(out, "            effect: Effect::{own}({built}),"),
+        match self.is_fixed() {
+            true => line!(out, "            effect: {built},"),
+            false => line!(out, "            effect: Effect::from({built}),"),
         }
         let source = self.source(&term.source);
         line!(out, "            // {}", term.source);

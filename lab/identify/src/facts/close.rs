@@ -4,7 +4,7 @@ use super::asked::{label, Asked};
 use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
-use crate::alteration::HALF;
+use crate::alteration::{Suspicion, HALF};
 use crate::conclude::files_apart::{judge_files, with_own_gains};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::logged::Run;
@@ -15,6 +15,7 @@ use crate::export::hand_over::HandOver;
 use crate::export::{postcard, vector, ModelFile};
 use crate::fit::Solution;
 use crate::ledger::Ledger;
+use crate::model::structure::Structure;
 use crate::problem::Prepared;
 use crate::record::Record;
 use std::cell::Cell;
@@ -128,6 +129,24 @@ impl Close {
         done
     }
 
+    /// A suspected error in the logging of the records.
+    fn suspicion(
+        &self,
+        records: &[Record],
+        (data, ledger, done): (&Prepared, &Ledger, &FinalFit),
+        structure: &Structure,
+    ) -> Option<Suspicion> {
+        let run = Run {
+            records,
+            data,
+            ledger,
+            done,
+            prepare: &|records| self.on_grids(records, data.cutoff),
+            search: &|data| self.asked.search(data, structure, &|_| {}).ok(),
+        };
+        run.suspicion()
+    }
+
     /// What each of several records supports alone, with the common filter; empty if the search
     /// added nothing or was cut short.
     fn files_alone(&self, records: &[Record], cutoff: f64, ledger: &Ledger) -> Vec<FileAlone> {
@@ -195,15 +214,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     let has_time = asked.budget.is_none();
     if ledger.apart.is_empty() && has_time {
         tell("testing whether columns are swapped or reversed");
-        let run = Run {
-            records,
-            data: &data,
-            ledger: &ledger,
-            done: &done,
-            prepare: &|records| question.on_grids(records, data.cutoff),
-            search: &|data| asked.search(data, &structure, &|_| {}).ok(),
-        };
-        ledger.suspicion = run.suspicion();
+        ledger.suspicion = question.suspicion(records, (&data, &ledger, &done), &structure);
     }
     let hand = HandOver::new(records, &data, &ledger, &done, question.invertible, tell);
     // The result stands even if nothing can be handed over to firmware.

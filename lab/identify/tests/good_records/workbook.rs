@@ -201,7 +201,7 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
     assert!(read(&all, Some("Run 2")).unwrap().is_empty());
     assert!(read(&[all[0], all[2]], None).unwrap().is_empty());
     let refusal = |sheets: &[(&str, &str)], sheet| read(sheets, sheet).unwrap_err();
-    assert!(refusal(&all, Some("Other")).starts_with("r.xlsx:1: column `x`"));
+    assert!(refusal(&all, Some("Other")).starts_with("r.xlsx:1: the columns `a`, `b`, `c` "));
     assert_eq!(
         refusal(&all, Some("run 1")),
         "r.xlsx: --sheet run 1: the workbook has no such sheet (nearest: `Run 1`, `Run 2`)"
