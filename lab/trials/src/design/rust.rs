@@ -192,28 +192,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         item(&format!("const {name}: f32"), &number(value), out);
         line!(out);
     }
-    let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
-    line!(
-        out,
-        "/// The safe command [command unit] after {after} bad steps of the law in a row."
-    );
-    let fallback = format!(
-        "constant!(Fallback::<f32>::try_new({after}, {}))",
-        number(safe)
-    );
-    item("const STEPS_FALLBACK: Fallback<f32>", &fallback, out);
-    line!(out);
-    let slew = own.limits.slew().unwrap_or(f64::INFINITY);
-    line!(
-        out,
-        "/// The range with the slew-rate limit that the certificate needs [command unit/s]."
-    );
-    let slewed = format!(
-        "constant!(Limits::<f32>::with_slew(RANGE, {}))",
-        number(slew)
-    );
-    item("const STEPS_LIMITS: Limits<f32>", &slewed, out);
-    line!(out);
+    limits_of_steps(own, out);
     line!(out, "/// The settings of the law.");
     line!(
         out,
@@ -246,6 +225,32 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         "constant!(Adaptive::<f32, 0>::try_new(ADAPTIVE_SETTINGS))",
         out,
     );
+}
+
+/// The fallback and the limits of the law, which counts steps instead of samples.
+fn limits_of_steps(own: &AdaptiveSettings<f64, 0>, out: &mut String) {
+    let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
+    line!(
+        out,
+        "/// The safe command [command unit] after {after} bad steps of the law in a row."
+    );
+    let fallback = format!(
+        "constant!(Fallback::<f32>::try_new({after}, {}))",
+        number(safe)
+    );
+    item("const STEPS_FALLBACK: Fallback<f32>", &fallback, out);
+    line!(out);
+    let slew = own.limits.slew().unwrap_or(f64::INFINITY);
+    line!(
+        out,
+        "/// The range with the slew-rate limit that the certificate needs [command unit/s]."
+    );
+    let slewed = format!(
+        "constant!(Limits::<f32>::with_slew(RANGE, {}))",
+        number(slew)
+    );
+    item("const STEPS_LIMITS: Limits<f32>", &slewed, out);
+    line!(out);
 }
 
 fn estimator(name: &str, what: &str, own: &Estimator<f64>, out: &mut String) {

@@ -110,7 +110,7 @@ fn from_a_record_over_its_model_to_gains_that_settle_on_the_rig_of_that_model() 
         let value = pi[key].as_float().unwrap();
         pi.insert(key.to_owned(), (0.1 * value).into());
     }
-    let weak = place.file("weak.toml", &toml::to_string(&table).unwrap());
+    let weak = place.file("weak.toml", toml::to_string(&table).unwrap());
     let weak = error(&compared(&model, &weak), "pi");
     let designed = error(&own, "pi");
     assert!(designed < 0.5 * weak, "{designed} {weak}");
@@ -230,7 +230,7 @@ fn gains_and_rigs_that_make_no_sense_are_one_line() {
             .concat(),
         )
     };
-    let broken = place.file("broken.toml", &text(&gains).replace("k_p = ", "kp = "));
+    let broken = place.file("broken.toml", text(&gains).replace("k_p = ", "kp = "));
     let line = compare(&broken, &[]);
     assert!(line.contains("broken.toml:13:1: `kp`"), "{line}");
     assert!(compare(&model, &[]).contains("is a model"));
@@ -324,11 +324,11 @@ fn a_model_in_another_unit_of_torque_is_refused() {
         assert_eq!(units[end].as_str(), Some("N·m"));
         // The same unit in other letters.
         units.insert(end.to_owned(), "Nm".into());
-        let same = place.file("same.toml", &toml::to_string(&table).unwrap());
+        let same = place.file("same.toml", toml::to_string(&table).unwrap());
         said(&[["design", &same].as_slice(), &options].concat());
         let units = table["about"]["units"].as_table_mut().unwrap();
         units.insert(end.to_owned(), "mN·m".into());
-        let other = place.file("milli.toml", &toml::to_string(&table).unwrap());
+        let other = place.file("milli.toml", toml::to_string(&table).unwrap());
         for arguments in [
             [["design", &other].as_slice(), &options].concat(),
             vec!["compare", "--model", &other, "--inertia", "0.002"],

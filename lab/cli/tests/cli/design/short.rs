@@ -9,7 +9,7 @@ fn of_a_stroke(place: &Folder, stroke: [f64; 2]) -> String {
     let mut table: toml::Table = toml::from_str(&text(&straight(place))).unwrap();
     let input = table["about"]["ranges"]["input"].as_table_mut().unwrap();
     input.insert("position".to_owned(), stroke.to_vec().into());
-    place.file("short.toml", &toml::to_string(&table).unwrap())
+    place.file("short.toml", toml::to_string(&table).unwrap())
 }
 
 /// Up and down the output would have to pass by more than the stroke moves it.
@@ -71,7 +71,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     let place = Folder::new();
     let gains = place.path("gains.toml");
     let report = |low: f64| {
-        let model = place.file("model.toml", &STIFF.replace("LOW", &format!("{low:?}")));
+        let model = place.file("model.toml", STIFF.replace("LOW", &format!("{low:?}")));
         let asked = ["--rate", "1000", "--delay", "0.0004", "--out", &gains];
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(report.contains("certificate (peak-"), "{report}");
@@ -175,7 +175,7 @@ fn gains_of_another_model_are_told() {
         )
     };
     assert!(!told(&model).contains("designed for model.toml and not"));
-    let other = place.file("other.toml", &text(&model));
+    let other = place.file("other.toml", text(&model));
     let report = told(&other);
     assert!(
         report.contains("gains.toml, which were designed for model.toml and not for this model"),
@@ -201,7 +201,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     let limits = limits.as_table_mut().unwrap();
     let designed = limits["slew"].as_float().unwrap();
     limits.insert("slew".to_owned(), (0.02 * designed).into());
-    let slow = place.file("slow.toml", &toml::to_string(&table).unwrap());
+    let slow = place.file("slow.toml", toml::to_string(&table).unwrap());
     let report = compared(&slow, &[]);
     let told = report
         .lines()

@@ -171,6 +171,12 @@ fn each_shape_of_a_mat_file_and_each_compression_of_parquet_holds_the_same_colum
         assert_eq!(record.channel("load").unwrap().values, column(3), "{name}");
         assert_eq!(record.output.unit.as_deref(), Some("N"), "{name}");
     }
+}
+
+#[test]
+fn columns_without_names_fields_types_stamps_and_nulls_are_read_as_they_were_written() {
+    let own = &rows()[..240];
+    let column = |index: usize| own.iter().map(|row| row[index]).collect::<Vec<_>>();
     // Columns of a matrix without names, as MATLAB writes them.
     let at = |index: usize| Some(format!("data(:,{index})"));
     let options = Options {
