@@ -93,6 +93,8 @@ pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
 impl Columns {
     /// The header, and the values of all columns; NaN where there is none.
     pub(super) fn all(self) -> (Header, Vec<Vec<f64>>) {
+        // Without Parquet there is only one form.
+        #[allow(clippy::infallible_destructuring_match)]
         let values = match self.stored {
             Stored::Values(all) => all,
             #[cfg(feature = "parquet")]

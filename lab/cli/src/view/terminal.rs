@@ -112,7 +112,10 @@ fn answer(facts: &Facts, width: Width) -> String {
         let words = format!("{}: also described by {}", lack.title, sets.join(" or "));
         prose(&mut out, width, &words);
     }
-    prose(&mut out, width, &unsaid(facts, &errors));
+    let rest = unsaid(facts, &errors);
+    if !rest.is_empty() {
+        prose(&mut out, width, &rest);
+    }
     line!(out);
     out
 }
@@ -139,6 +142,12 @@ fn share(facts: &Facts, lack: &Lack) -> String {
             format!("{} ({share:.0} % of the missing output)", lack.title)
         }
     }
+}
+
+/// Whether the largest share, as printed, is 0 %.
+fn explains_little(facts: &Facts) -> bool {
+    let largest = facts.lacks.first().map(|lack| 100.0 * lack.share.most());
+    !facts.complete.at_floor && largest.is_some_and(|share| share.round() <= 0.0)
 }
 
 /// The answer in a few words.
@@ -173,6 +182,7 @@ fn headline(facts: &Facts) -> String {
         }
         (Verdict::Explained, 0) => "NO TERM IS MISSING: the residual is sensor noise".to_owned(),
         (_, 0) => "NO MISSING TERM FOUND: the residual exceeds sensor noise".to_owned(),
+        _ if explains_little(facts) => format!("LITTLE EXPLAINED: {main}"),
         _ => format!("MISSING: {main}"),
     }
 }

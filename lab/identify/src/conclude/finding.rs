@@ -405,6 +405,7 @@ impl Finding {
             | Self::FilesScaled { .. }
             | Self::LoggedDifferently(_)
             | Self::InputIsVelocity { .. }
+            | Self::FilesOfSeveralRigs { .. }
             | Self::RowsShuffled { .. }
             | Self::InputAtRest { .. }
             | Self::ChannelTakesOver { .. }

@@ -268,8 +268,9 @@ fn lack(
         alternatives.sort_unstable();
         alternatives.dedup();
     }
-    // Something in the data explains as much: the clocks, or the columns.
-    let is_doubtful = ledger.suspicion.is_some() || velocity(data).is_some();
+    // Something in the data explains as much: the clocks, the columns, or the files.
+    let of_columns = ledger.suspicion.is_some() || velocity(data).is_some();
+    let is_doubtful = of_columns || ledger.rigs_apart.is_some();
     is_high &= ledger.lead.is_none() && !is_doubtful;
     // They represent all terms of the search, not only the first.
     let is_whole = !ledger.beyond.iter().any(|round| is_own(&round));

@@ -266,6 +266,7 @@ impl Finding {
             }
             Self::RowsShuffled { .. } => "CHECK THE ROWS: are they in time order?".to_owned(),
             Self::InputIsVelocity { input } => format!("CHECK THE COLUMNS: is {input} a velocity?"),
+            Self::FilesOfSeveralRigs { .. } => "CHECK THE FILES: are they from one rig?".to_owned(),
             _ => return None,
         })
     }
