@@ -92,14 +92,18 @@ impl Closed {
     pub fn text(&self) -> String {
         let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
         let text = close(&arguments, &[]);
-        // The headline names the mechanisms, with which the sentence may begin.
-        let sentence = self.sentence();
-        let rest = sentence.strip_prefix("The baseline model lacks ");
-        let told = rest.and_then(|rest| Some(&rest[rest.find(". With ")? + 2..]));
-        assert!(
-            text.contains(told.unwrap_or(sentence)),
-            "{sentence} is not in {text}"
-        );
+        // Errors come before the terms. The headline names the mechanisms, with which the sentence may
+        // begin.
+        let findings = self.json["findings"].as_array().unwrap().iter();
+        let errors = findings.filter(|finding| finding["severity"] == "error");
+        let errors = errors.map(|error| error["words"].as_str().unwrap());
+        let errors = errors.collect::<Vec<_>>().join(" ");
+        let rest = self.sentence().strip_prefix(&errors).unwrap().trim_start();
+        let told = rest.strip_prefix("The baseline model lacks ");
+        let told = told.and_then(|rest| Some(&rest[rest.find(". With ")? + 2..]));
+        for part in [&errors, told.unwrap_or(rest)] {
+            assert!(text.contains(part), "{part} is not in {text}");
+        }
         text
     }
 
