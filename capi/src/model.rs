@@ -4,8 +4,8 @@ use crate::object::{kept, read, read_all, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core::slice;
-use core_bowden::model::{Model, ModelState, Sample, Source};
 use core_bowden::effect::Motion;
+use core_bowden::model::{Model, ModelState, Sample, Source};
 
 /// Maximum number of terms of a model.
 pub const BOWDEN_TERMS: usize = 16;

@@ -8,10 +8,10 @@ mod objects;
 mod signal;
 
 use bowden::*;
+use core_bowden::effect::Motion;
 use core_bowden::effect::{Effect, CATALOGUE};
 use core_bowden::hysteresis::BoucWen;
 use core_bowden::model::{Model, ModelState, Sample, Source, Term};
-use core_bowden::effect::Motion;
 use core_bowden::transmission::Transmission;
 use objects::blank;
 use signal::Signal;

@@ -7,8 +7,8 @@ mod signal;
 
 use bowden::*;
 use core_bowden::control::{Applied, Compensator, CompensatorInput, CompensatorState};
-use core_bowden::model::Model;
 use core_bowden::effect::Motion;
+use core_bowden::model::Model;
 use objects::blank;
 use signal::Signal;
 use std::ptr::{null, null_mut};

@@ -12,8 +12,8 @@ use core_bowden::control::{
     CompensatorInput, CompensatorState, Estimator, Fallback, Form, Leakage, Limits, OnMissing,
     SmoothSign, Status,
 };
-use core_bowden::model::{Model, ModelState, Sample, Source};
 use core_bowden::effect::Motion;
+use core_bowden::model::{Model, ModelState, Sample, Source};
 use objects::blank;
 use signal::Signal;
 use std::ptr::{null, null_mut};

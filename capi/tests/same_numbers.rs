@@ -10,8 +10,8 @@ use core_bowden::control::{
     AntiWindup, DerivativeSource, DisturbanceObserver, Fallback, Limits, NominalPlant,
     ObserverInput, ObserverState, Pid, PidInput, PidSettings, PidState, Status,
 };
-use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::effect::Motion;
+use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::signal::{Play, PlayState, Rates, RatesState};
 use core_bowden::transmission::Transmission;
 use objects::blank;

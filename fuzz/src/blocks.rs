@@ -2,10 +2,10 @@
 
 use crate::numbers::Numbers;
 use crate::properties::control::a_relay_experiment_is_bounded_and_ends;
-use bowden::Constant;
 use bowden::control::{Relay, RelaySettings, RelayState};
 use bowden::signal::{Biquad, BiquadState, LowPass, LowPassState};
 use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
+use bowden::Constant;
 
 /// Whether a filter may use a sample.
 fn is_usable(sample: f32, dt: f32) -> bool {

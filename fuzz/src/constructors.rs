@@ -5,11 +5,11 @@ use crate::blocks;
 use crate::numbers::Numbers;
 use crate::pid;
 use crate::properties::control::{estimates_keep_their_limit, learning_keeps_its_limit};
-use bowden::Constant;
 use bowden::control::{Adaptive, Fallback, Limits, Pid};
 use bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 use bowden::control::{IterativeLearning, IterativeLearningInput};
 use bowden::signal::{Plausible, PlausibleState, Ramp, RampState, Rates, RatesState};
+use bowden::Constant;
 
 /// Whatever the arguments: a constant is accepted where the run time accepts it, and refused
 /// in the same words; the blocks in front of a controller do what their docs say.
@@ -91,12 +91,16 @@ fn plausible(from: &mut Numbers) -> Option<()> {
     let (period, longest_dt): (Option<f32>, Option<f32>) =
         (from.any_or_none()?, from.any_or_none()?);
     let sampled = period.map_or(Ok(rated), |period| rated.with_sample_period(period));
-    let constant = period.map_or(Ok(rated), |period| Constant::<Plausible<f32>>::with_sample_period(rated, period));
+    let constant = period.map_or(Ok(rated), |period| {
+        Constant::<Plausible<f32>>::with_sample_period(rated, period)
+    });
     assert!(sampled == constant);
     let period = period.filter(|_| is_rated && sampled.is_ok());
     let sampled = sampled.unwrap_or(rated);
     let longest = longest_dt.map_or(Ok(sampled), |longest| sampled.with_longest_dt(longest));
-    let constant = longest_dt.map_or(Ok(sampled), |it| Constant::<Plausible<f32>>::with_longest_dt(sampled, it));
+    let constant = longest_dt.map_or(Ok(sampled), |it| {
+        Constant::<Plausible<f32>>::with_longest_dt(sampled, it)
+    });
     assert!(longest == constant);
     let longest_dt = longest_dt.filter(|_| longest.is_ok()).unwrap_or(f32::MAX);
     let plausible = longest.unwrap_or(sampled);
@@ -158,7 +162,9 @@ fn observer(from: &mut Numbers) -> Option<()> {
     let (tau, limit, longest_dt) = (from.any()?, from.any()?, from.any()?);
     let plant = plant.ok()?;
     let observer = DisturbanceObserver::try_new(plant, tau, limit, longest_dt);
-    assert!(observer == Constant::<DisturbanceObserver<f32>>::try_new(plant, tau, limit, longest_dt));
+    assert!(
+        observer == Constant::<DisturbanceObserver<f32>>::try_new(plant, tau, limit, longest_dt)
+    );
     let observer = observer.ok()?;
     let latency = from.any()?;
     let late = observer.with_latency(latency);

@@ -5,8 +5,8 @@ use core_bowden::control::{
     CompensatorInput, CompensatorState, Estimator, Fallback, Fault, Form, Limits, OnMissing,
     Output, Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
 };
-use core_bowden::model::{Model, ModelState, Sample, Source};
 use core_bowden::effect::Motion;
+use core_bowden::model::{Model, ModelState, Sample, Source};
 use core_bowden::signal::{Rates, RatesState};
 
 const DT: f32 = 0.001;

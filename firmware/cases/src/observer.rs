@@ -7,14 +7,13 @@ use bowden::Error;
 use core::hint::black_box;
 
 /// Q of 10 Hz on the reference rig's drive, 3 ms late.
-const OBSERVER: DisturbanceObserver<f32> =
-    constant!(DisturbanceObserver::<f32>::try_new(
-        constant!(NominalPlant::<f32>::try_new(0.6, 25.5, 0.265)),
-        0.0159,
-        30.0,
-        0.005,
-    )
-    .with_latency(0.003));
+const OBSERVER: DisturbanceObserver<f32> = constant!(DisturbanceObserver::<f32>::try_new(
+    constant!(NominalPlant::<f32>::try_new(0.6, 25.5, 0.265)),
+    0.0159,
+    30.0,
+    0.005,
+)
+.with_latency(0.003));
 
 /// The reference stands for the command that went out.
 fn step(

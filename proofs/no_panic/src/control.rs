@@ -9,9 +9,7 @@ mod pid;
 mod relay;
 
 use crate::{any, never_panics};
-use bowden::control::{
-    Controller, Fallback, Limits, LoopSample, Pid, PidState, Status,
-};
+use bowden::control::{Controller, Fallback, Limits, LoopSample, Pid, PidState, Status};
 use bowden::Real;
 use std::hint::black_box;
 

@@ -38,7 +38,10 @@ pub fn all<T: Real>() -> Option<()> {
         control_adaptive_settings_largest_step,
         settings::<T>().largest_step()
     );
-    never_panics!(control_adaptive_settings_try_new, Adaptive::try_new(settings::<T>()));
+    never_panics!(
+        control_adaptive_settings_try_new,
+        Adaptive::try_new(settings::<T>())
+    );
 
     let law = law::<T>()?;
     let at = black_box(AdaptiveInput::new(any(), any(), any(), [any(), any()]));

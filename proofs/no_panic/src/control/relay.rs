@@ -24,7 +24,10 @@ fn settings<T: Real>() -> RelaySettings<T> {
 }
 
 pub fn all<T: Real>() -> Option<()> {
-    never_panics!(control_relay_settings_try_new, Relay::<T>::try_new(settings()));
+    never_panics!(
+        control_relay_settings_try_new,
+        Relay::<T>::try_new(settings())
+    );
     never_panics!(control_relay_state_new, RelayState::<T>::new());
     let relay = black_box(Relay::<T>::try_new(settings())).ok()?;
     let mut state = black_box(RelayState::new());
