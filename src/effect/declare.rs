@@ -64,12 +64,6 @@ macro_rules! effect {
      $(stage $stage:ident,)? reads $($reads:ident)* $(, $memory:ident)?;
      value($it:pat_param, $state:pat_param, $at:pat_param) = $value:expr; $($more:tt)*
     ) => {
-        impl<T> From<$own> for $crate::effect::Effect<T> {
-            fn from(effect: $own) -> Self {
-                Self($crate::effect::Kind::$effect(effect))
-            }
-        }
-
         impl<T: $crate::Real> $crate::effect::Regressor<T> for $own {
             const INFO: &'static $crate::effect::Info = {
                 use $crate::effect::{Info, Parity, Quantity, Stage, Symmetry};

@@ -48,7 +48,7 @@ macro_rules! effects {
         ))]
         #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         enum Kind<T> {
-            $($effect($effect $(<$T>)?),)+
+            $($effect $(($effect<$T>))?,)+
         }
 
         /// All effects, in the order in which compact forms number them.
@@ -62,26 +62,33 @@ macro_rules! effects {
             &[$(<$effect $(<$T>)? as Regressor<T>>::INFO,)+]
         };
 
+        $(impl<T> From<$effect $(<$T>)?> for Effect<T> {
+            fn from(effect: $effect $(<$T>)?) -> Self {
+                effects!(@variant $effect effect $($T)?)
+            }
+        })+
+
+        #[allow(non_snake_case)]
         impl<T: Real> Effect<T> {
             /// Properties of the effect, without the values of its shape parameters.
             #[must_use]
             pub fn info(&self) -> &'static Info {
                 match &self.0 {
-                    $(Kind::$effect(_) => <$effect $(<$T>)? as Regressor<T>>::INFO,)+
+                    $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO,)+
                 }
             }
 
             /// Position of the effect in a model: a table of its own, without the other properties.
             pub(crate) fn stage(&self) -> Stage {
                 match &self.0 {
-                    $(Kind::$effect(_) => <$effect $(<$T>)? as Regressor<T>>::INFO.stage,)+
+                    $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO.stage,)+
                 }
             }
 
             /// The quantities that the effect reads, likewise.
             pub(crate) fn reads(&self) -> &'static [Quantity] {
                 match &self.0 {
-                    $(Kind::$effect(_) => <$effect $(<$T>)? as Regressor<T>>::INFO.reads,)+
+                    $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO.reads,)+
                 }
             }
 
@@ -89,7 +96,9 @@ macro_rules! effects {
             #[must_use]
             pub fn shape(&self, index: usize) -> Option<T> {
                 match &self.0 {
-                    $(Kind::$effect(effect) => Regressor::<T>::shape(effect, index),)+
+                    $(Kind::$effect $(($T))? => {
+                        Regressor::<T>::shape(effects!(@effect $effect $($T)?), index)
+                    })+
                 }
             }
 
@@ -119,7 +128,9 @@ macro_rules! effects {
             ) {
                 // The effect is matched once per record, not once per sample.
                 match &self.0 {
-                    $(Kind::$effect(effect) => along(effect, state, record, take),)+
+                    $(Kind::$effect $(($T))? => {
+                        along(effects!(@effect $effect $($T)?), state, record, take)
+                    })+
                 }
             }
 
@@ -131,11 +142,21 @@ macro_rules! effects {
             #[inline]
             pub fn regressor(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
                 match &self.0 {
-                    $(Kind::$effect(effect) => evaluate(effect, state, at),)+
+                    $(Kind::$effect $(($T))? => evaluate(effects!(@effect $effect $($T)?), state, at),)+
                 }
             }
         }
     };
+
+    // The effect of a variant: the type itself if it has no shape parameters.
+    (@effect $effect:ident) => { &$effect };
+    (@effect $effect:ident $T:ident) => { $T };
+    // The variant of an effect.
+    (@variant $effect:ident $of:ident) => {{
+        let $effect = $of;
+        Self(Kind::$effect)
+    }};
+    (@variant $effect:ident $of:ident $T:ident) => { Self(Kind::$effect($of)) };
 }
 
 effects! {
@@ -293,8 +314,8 @@ impl<T: Real> Effect<T> {
     #[inline]
     pub fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
         let part = match &self.0 {
-            Kind::Delay(delay) if at.is_usable(<Delay as Regressor<T>>::INFO.reads) => {
-                Regressor::contribution(delay, gain, state, at)
+            Kind::Delay if at.is_usable(<Delay as Regressor<T>>::INFO.reads) => {
+                Regressor::contribution(&Delay, gain, state, at)
             }
             _ => gain * self.regressor(state, at),
         };
@@ -311,7 +332,7 @@ impl<T: Real> Effect<T> {
         mut take: impl FnMut(T),
     ) {
         match &self.0 {
-            Kind::Delay(_) => record.for_each(|at| take(self.contribution(gain, state, &at))),
+            Kind::Delay => record.for_each(|at| take(self.contribution(gain, state, &at))),
             _ => self.regressors(state, record, |value| take(saturate(gain * value))),
         }
     }

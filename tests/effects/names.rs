@@ -114,9 +114,19 @@ fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
 /// What configs and the model's TOML form rest on.
 #[cfg(feature = "serde")]
 mod serde {
-    use bowden::effect::Coulomb;
-    use serde::de::value::{Error, MapDeserializer};
+    use super::{make, names};
+    use bowden::effect::{Coulomb, Effect};
+    use serde::de::value::{Error, MapDeserializer, StrDeserializer};
+    use serde::de::IntoDeserializer;
     use serde::Deserialize;
+
+    #[test]
+    fn an_effect_without_shapes_is_its_name() {
+        for name in names().filter(|name| make::<f64>(name).info().shapes.is_empty()) {
+            let from: StrDeserializer<Error> = name.into_deserializer();
+            assert_eq!(Effect::deserialize(from), Ok(make::<f64>(name)));
+        }
+    }
 
     #[test]
     fn reading_a_config_goes_through_its_constructor() {
