@@ -54,7 +54,7 @@ const CONSTANTS: [(&str, usize); 18] = [
     ("identify/algebra", 1),
     ("identify/alteration", 1),
     ("identify/check", 14),
-    ("identify/conclude", 26),
+    ("identify/conclude", 27),
     ("identify/export", 13),
     ("identify/facts", 1),
     ("identify/fit", 9),

@@ -19,6 +19,9 @@ use crate::search::policy::AT_FLOOR;
 /// Maximum number of channel alterations that are tried. Each costs as much as one linearisation of
 /// the baseline model. Four files with two channels have twelve.
 const MOST_WAYS: usize = 12;
+/// The search runs again for a channel alteration only if terms, to first order, then leave at most
+/// this share of the squared error that they leave without it. A choice: it saves a search.
+const PROMISED: f64 = 0.8;
 
 /// A run whose records may have been logged differently.
 pub(crate) struct Run<'a> {
@@ -54,7 +57,7 @@ impl Run<'_> {
     }
 
     /// The channel alteration of one file with which the terms of the catalogue, to first order,
-    /// leave the least error; `None` if they leave no less than in the records as they are.
+    /// leave the least error; `None` if they leave nearly as much in the records as they are.
     fn channel(&self) -> Option<Way> {
         let ways = self.channels();
         if ways.len() > MOST_WAYS {
@@ -64,7 +67,7 @@ impl Run<'_> {
         let promise = |way: Way| Some((left_by_names(&self.undone(&way)?, declared)?, way));
         let best = ways.into_iter().filter_map(promise);
         let (least, way) = best.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (least < left_by_names(self.data, declared)?).then_some(way)
+        (least <= PROMISED * left_by_names(self.data, declared)?).then_some(way)
     }
 
     /// The ways in which a channel of one file may differ. Of two files either one may be meant:
