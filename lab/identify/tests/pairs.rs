@@ -13,7 +13,7 @@ mod shared;
 
 use bowden_lab::check::Verdict;
 use bowden_lab::ledger::Grade;
-use pair::{known, Carried, Closed, Identity, Name, Rig, Share};
+use pair::{known, print_agreement, Carried, Closed, Identity, Name, Rig, Share};
 use shared::{disturbed, Row, DAMPER, DAVINCI_03, DAVINCI_23, PIEZO_FULL, PIEZO_VARYING};
 use std::sync::LazyLock;
 
@@ -186,7 +186,11 @@ fn the_main_mechanism_of_a_record_is_that_of_the_other_records_of_its_rig() {
     }
     let sum = |which: usize| -> Share { draws().flatten().map(|r| r.mechanisms()[which]).sum() };
     let (all, high) = (sum(0), sum(1));
-    println!("pairs with one main mechanism: {all}; of high confidence in both: {high}");
+    print_agreement(&RIGS);
+    println!(
+        "over {} draws: pairs with one main mechanism: {all}; of high confidence in both: {high}",
+        1 + COPIES
+    );
     assert!(10 * all.count >= 9 * all.of, "{all}");
     assert!(high.of > 0 && high.count == high.of, "{high}");
 }

@@ -1,4 +1,4 @@
-//! What two or more records of one rig say of each other.
+//! What two or more records of one rig say of each other. Records in one folder are of one rig.
 //!
 //! ```sh
 //! cargo run --release -p bowden-lab --example carry_over -- A.csv B.csv … \
@@ -9,16 +9,17 @@
 //! each, as `--model-out` writes it, runs on each other record as in `bowden validate`. Printed
 //! are the names of each record, the share of its firm names that the other one knows, the
 //! rounds that raise the held-out error, and the error on the other record: as it is, with gain
-//! and offset refitted, and over the own held-out error. A record that cannot be read or fitted ends
-//! the run.
+//! and offset refitted, and over the own held-out error. The last table is about the mechanisms:
+//! how often two records of one rig lack the same main mechanism, and how often two records of
+//! different rigs do. A record that cannot be read or fitted ends the run.
 
 #[allow(dead_code)]
 mod pair;
 
 use bowden_lab::facts::Asked;
 use bowden_lab::record::Mode;
-use pair::{Closed, Rig};
-use std::path::PathBuf;
+use pair::{print_agreement, Closed, Rig};
+use std::path::{Path, PathBuf};
 
 /// The records, and how they are read.
 struct Arguments {
@@ -86,11 +87,22 @@ impl Arguments {
 
 fn main() -> Result<(), String> {
     let Arguments { paths, asked } = Arguments::read(std::env::args().skip(1))?;
-    let mut closed = Vec::new();
+    let mut rigs: Vec<(&Path, Vec<Closed>)> = Vec::new();
     for path in &paths {
         eprintln!("closing {}", path.display());
-        closed.push(Closed::new(&asked, path)?);
+        let closed = Closed::new(&asked, path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        match rigs.iter_mut().find(|(of, _)| *of == folder) {
+            Some((_, records)) => records.push(closed),
+            None => rigs.push((folder, vec![closed])),
+        }
     }
-    Rig::new("records of one rig", closed)?.print();
+    let rigs = rigs.into_iter().map(|(folder, closed)| {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy();
+        Rig::new(&name, closed)
+    });
+    let rigs = rigs.collect::<Result<Vec<Rig>, String>>()?;
+    rigs.iter().for_each(Rig::print);
+    print_agreement(&rigs);
     Ok(())
 }

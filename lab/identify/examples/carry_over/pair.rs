@@ -232,6 +232,61 @@ pub fn known(of: &[Name], by: &[Name]) -> Share {
     }
 }
 
+/// Pairs of records whose main missing mechanism is the same one, of all in which both lack one;
+/// and of those in which both are of high confidence.
+fn agreeing<'a>(pairs: impl Iterator<Item = (&'a Closed, &'a Closed)>) -> [Share; 2] {
+    let mut shares = [Share::default(); 2];
+    for ((one, own), (other, its)) in pairs.filter_map(|(a, b)| Some((a.mechanism?, b.mechanism?)))
+    {
+        let is_high = own == Grade::High && its == Grade::High;
+        for share in shares.iter_mut().take(1 + usize::from(is_high)) {
+            share.of += 1;
+            share.count += usize::from(one == other);
+        }
+    }
+    shares
+}
+
+/// The chance level of [`Rig::mechanisms`]: the same of pairs of records of different rigs.
+pub fn by_chance(rigs: &[Rig]) -> [Share; 2] {
+    let rigs = rigs.iter().enumerate();
+    agreeing(rigs.clone().flat_map(|(i, rig)| {
+        let others = rigs.clone().skip(i + 1).flat_map(|(_, rig)| &rig.closed);
+        others.flat_map(move |other| rig.closed.iter().map(move |one| (one, other)))
+    }))
+}
+
+/// Prints how often two records of one rig lack the same mechanism, and the chance level.
+pub fn print_agreement(rigs: &[Rig]) {
+    let records: Vec<&Closed> = rigs.iter().flat_map(|rig| &rig.closed).collect();
+    let with = |is: fn(&Closed) -> bool| records.iter().filter(|one| is(one)).count();
+    let [all, high] = rigs.iter().fold([Share::default(); 2], |[all, high], rig| {
+        let [own, own_high] = rig.mechanisms();
+        [all + own, high + own_high]
+    });
+    let [chance, chance_high] = by_chance(rigs);
+    println!(
+        "\n| the main missing mechanism is the same | of one rig | of different rigs (chance) |"
+    );
+    println!("|---|---|---|");
+    println!(
+        "| pairs of records | {all} | {chance} ({:.0} %) |",
+        chance.percent()
+    );
+    println!(
+        "| of these, both with high confidence | {high} | {chance_high} ({:.0} %) |",
+        chance_high.percent()
+    );
+    println!(
+        "\n{} records of {} rigs: {} lack a mechanism, {} of these with high confidence; {} have a high-confidence term",
+        records.len(),
+        rigs.len(),
+        with(|one| one.mechanism.is_some()),
+        with(|one| matches!(one.mechanism, Some((_, Grade::High)))),
+        with(|one| one.names.iter().any(|name| name.grade == Grade::High)),
+    );
+}
+
 /// Records of one rig, each closed once, with the model of each on each other.
 pub struct Rig {
     pub name: String,
@@ -270,19 +325,11 @@ impl Rig {
     /// Pairs of records whose main missing mechanism is the same one, of all in which both lack
     /// one; and of those in which both are of high confidence.
     pub fn mechanisms(&self) -> [Share; 2] {
-        let all = self.closed.iter().enumerate().flat_map(|(i, one)| {
+        let records = self.closed.iter().enumerate();
+        agreeing(records.flat_map(|(i, one)| {
             let others = self.closed[i + 1..].iter();
-            others.filter_map(|other| Some((one.mechanism?, other.mechanism?)))
-        });
-        let mut shares = [Share::default(); 2];
-        for ((one, own), (other, its)) in all {
-            let is_high = own == Grade::High && its == Grade::High;
-            for share in shares.iter_mut().take(1 + usize::from(is_high)) {
-                share.of += 1;
-                share.count += usize::from(one == other);
-            }
-        }
-        shares
+            others.map(move |other| (one, other))
+        }))
     }
 
     /// Delivered rounds that raise the held-out error of their own record.
@@ -293,21 +340,29 @@ impl Rig {
     /// Both tables in Markdown: what each record names, and how each model does on the others.
     pub fn print(&self) {
         println!("\n{}", self.name);
-        println!("\n| record | delivered: **high**, low confidence | found beyond | held out |");
-        println!("|---|---|---|---|");
+        println!("\n| record | main missing mechanism | terms: **high**, low confidence | undelivered | held-out error |");
+        println!("|---|---|---|---|---|");
         for closed in &self.closed {
             let names: Vec<String> = closed.names.iter().map(words).collect();
-            let curve = closed.unknown.iter().map(|u| format!("unknown over {u}"));
+            let curve = closed
+                .unknown
+                .iter()
+                .map(|u| format!("unmodelled dependence on {u}"));
             let all: Vec<String> = names.into_iter().chain(curve).collect();
+            let mechanism = closed.mechanism.map(|(mechanism, grade)| match grade {
+                Grade::High => format!("**{}**", mechanism.name()),
+                Grade::Low => mechanism.name().to_owned(),
+            });
             println!(
-                "| {} | {} | {} | {:.2} % |",
+                "| {} | {} | {} | {} | {:.2} % |",
                 closed.label,
+                mechanism.unwrap_or_default(),
                 all.join(", "),
                 closed.beyond,
                 100.0 * closed.held_out
             );
         }
-        println!("\n| model of | on | firm names known there | samples beyond what it has seen | held out at home | as it is | gain and offset refitted | over the own |");
+        println!("\n| model of | on | high-confidence terms found there | outside | own held-out error | without a refit | gain and offset refitted | error ratio |");
         println!("|---|---|---|---|---|---|---|---|");
         for one in &self.carried {
             let find = |label: &str| self.closed.iter().find(|c| c.label == label);
@@ -328,11 +383,9 @@ impl Rig {
             );
         }
         println!(
-            "\nfirm names that the other record knows: {}; delivered rounds that raise the held-out error: {}; pairs with one main mechanism: {}, of high confidence in both: {}",
+            "\nHigh-confidence terms found again: {}. Terms that raise the held-out error: {}.",
             self.agreement(),
             self.raising(),
-            self.mechanisms()[0],
-            self.mechanisms()[1],
         );
     }
 }
