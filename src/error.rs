@@ -1,7 +1,7 @@
 //! The error type of the crate: the cause and the parameter's name.
 //!
-//! The constructors check all parameters. After that no arithmetic returns a `Result`, and
-//! nothing panics.
+//! The constructors check all parameters. Afterwards no arithmetic returns a `Result`, and nothing
+//! panics.
 
 use core::fmt;
 

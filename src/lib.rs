@@ -1,11 +1,12 @@
 //! Bouc-Wen models of cable transmissions, and torque controllers, for firmware.
 //!
-//! A pair of Bowden cables transmits a torque with hysteretic friction. The output torque depends
+//! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
 //! on the present input and on earlier inputs. This crate models the friction with a **Bouc-Wen**
-//! hysteresis whose input is a torque or a displacement. A catalogue of further **effects** covers
-//! viscous friction, backlash, creep and others. The crate is `no_std`, allocates nothing, contains
-//! no unsafe code, and is generic over `f32` and `f64`. Its run-time dependencies are `num-traits`
-//! and `libm`.
+//! hysteresis, whose input is a torque or a displacement, and with a catalogue of further
+//! **effects** such as viscous friction, backlash and creep.
+//!
+//! The crate is `no_std`, allocates nothing, contains no unsafe code, and is generic over `f32` and
+//! `f64`. Its run-time dependencies are `num-traits` and `libm`.
 //!
 //! ```
 //! use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState};
@@ -55,7 +56,7 @@
 //! | [`control`] | torque controllers that reject bad samples | (14)-(26) |
 //! | [`signal`] | filters, rates of a position, play operator, plausibility checks | |
 //!
-//! The crate `bowden-bound` has error bounds and stability certificates for the controllers,
+//! The crate `bowden-bound` provides error bounds and stability certificates for the controllers,
 //! (27)-(38).
 //!
 //! # Conventions
@@ -67,9 +68,9 @@
 //!
 //! # Features
 //! All features are off by default:
-//! - `serde`: configurations are checked when they are deserialised. A [model](model::Model) uses
-//!   the file format that `bowden identify --model-out` writes.
-//! - `defmt`: types implement `defmt::Format`.
+//! - `serde`: deserialising a configuration checks it. A [model](model::Model) has the file format
+//!   that `bowden identify --model-out` writes.
+//! - `defmt`: the public types implement `defmt::Format`.
 //! - `std`: the crate links the standard library.
 #![no_std]
 #![forbid(unsafe_code)]

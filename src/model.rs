@@ -9,9 +9,9 @@
 //!
 //! A regressor's x is the position minus the origin of the term; see [`Term`].
 //!
-//! The bench fits a [`Model`], and the firmware runs it. It uses no heap, has a fixed capacity of
-//! `N` terms, and separates configuration and state. A model may have no transmission (effects
-//! alone) or no terms.
+//! The bench fits a [`Model`], and the firmware runs it. A model uses no heap, has a fixed capacity
+//! of `N` terms, and is separate from its state. It may have no transmission (effects alone) or no
+//! terms.
 //!
 //! A bad sample leaves the state unchanged, and the step returns the last good output. A sample
 //! is bad if `dt` is not positive, a channel is missing, or a number that the model reads is
@@ -48,12 +48,12 @@ pub enum Source {
 ///
 /// # Origin
 /// The effect reads `motion.position − origin`; velocity and acceleration come unchanged from the
-/// sensor. The zero of a sensor is arbitrary. An effect such as `x·|x|` or `x·tanh(v/v_e)` is even,
-/// odd or largest about a specific position. A different zero gives a different function, which no
-/// gain corrects. The bench identifies or selects this position, and the firmware must use the same
-/// origin with the same gain. Shape parameters that are positions (`x_h`) are measured from the
-/// origin. The origin does not shift the transmission's input, even if an effect reads the input in
-/// addition to its source (`degradation`).
+/// sensor. The zero of a sensor is arbitrary, but an effect such as `x·|x|` or `x·tanh(v/v_e)` is
+/// even, odd or largest about a specific position. With a different zero it is a different
+/// function, which no gain corrects. The bench identifies or selects this position, and the
+/// firmware must use the same origin with the same gain. Shape parameters that are positions
+/// (`x_h`) are measured from the origin. The origin does not shift the transmission's input, even
+/// if an effect reads the input in addition to its source (`degradation`).
 ///
 /// ```
 /// use bowden::effect::{Motion, StiffnessProgressive};
@@ -111,9 +111,9 @@ pub struct Sample<'a, T> {
 ///
 /// Every other format, such as postcard, stores the parts in order, without names: 143 bytes in
 /// `f32` for eight terms with eight shape parameters. The bytes state neither their precision nor
-/// their version. The bytes identify an effect by its index in
-/// [`CATALOGUE`](crate::effect::CATALOGUE). Store them with a checksum (postcard's
-/// `to_slice_crc32`), and write them again for a new version of this crate.
+/// their version, and identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE).
+/// Store them with a checksum (postcard's `to_slice_crc32`), and write them again for a new version
+/// of this crate.
 ///
 /// ```
 /// # #[cfg(feature = "serde")] {
@@ -341,10 +341,10 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// The same step, which also reports each term's contribution to the output.
     ///
-    /// The step calls `share(index, gain·regressor)` once per term, output stages last. The step
-    /// makes no call on a bad sample. The difference between the output and the sum of these
-    /// contributions is the contribution of the transmission. This contribution includes the effect
-    /// of the input stages, for which the step makes no call.
+    /// The step calls `share(index, gain·regressor)` once per term, output stages last, and makes
+    /// no call on a bad sample. The output minus the sum of these contributions is the contribution
+    /// of the transmission. It includes the effect of the input stages, for which the step makes no
+    /// call.
     ///
     /// ```
     /// use bowden::effect::{Inertia, Motion, Viscous};

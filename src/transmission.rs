@@ -6,12 +6,12 @@
 //! In both modes `eta` is the hysteresis of [`BoucWen`], advanced by the input.
 //!
 //! # The inverse
-//! The inverse computes the input for a given output. This input is unique if the output rises with
-//! the input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`,
-//! and 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
+//! The inverse computes the input for a given output, which is unique if the output rises with the
+//! input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`, and
+//! 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
 //! bound is 0.743 for the first parameter set of Nguyen et al. (2018), which has sigma = 98.36.
-//! Such a set is suitable only for simulation and identification. In a closed loop, the output of
-//! such a plant would fall while its input rises.
+//! Such a set is suitable only for simulation and identification: after a reversal, the output of
+//! such a plant falls while its input rises.
 //!
 //! The condition follows from the slope of the equation. The `f32` step is no steeper up to n = 4
 //! (proved) and up to n = 10 (measured). From about n = 12 on it may be 1.39 times as steep; see
@@ -22,8 +22,8 @@
 //! # Noise in front of the hysteresis
 //! The model treats every noise sample on its input as a reversal. Noise of 0.05 N·m rms on `tau_i`
 //! moves `kappa_eta·eta` of the first set by 3.7 N·m rms. A [`Play`](crate::signal::Play) in front
-//! of the model reduces this to 0.74 (sigma = 1/2: from 1.8 to 0.11). Its half-width is four times
-//! the noise's standard deviation. These numbers are from the test
+//! of the model, with a half-width of four standard deviations of the noise, reduces this to 0.74
+//! (sigma = 1/2: from 1.8 to 0.11). These numbers are from the test
 //! `noise_destroys_the_state_and_a_play_guards_it` in `tests/transmission.rs`. A play delays a
 //! reversal by its width: use it on a measured input, not on a commanded input.
 
@@ -220,14 +220,14 @@ impl<T: Real> Transmission<T> {
     /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
     /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
     /// `|gain|/|kappa_eta|`. The knee of the loop then becomes rounder, but the loop keeps its
-    /// height, which a feed-forward must overcome in every long motion. A lower kappa_eta instead
-    /// of a lower rho would make every saturated sample wrong: on loops of ten times 1/rho or more,
-    /// the rms error would be more than twice as large (test
-    /// `a_rounder_knee_costs_less_than_a_lower_loop` in `tests/transmission.rs`).
+    /// height, which matters in every long motion. A lower kappa_eta instead of a lower rho would
+    /// make every saturated sample wrong: on loops of ten times 1/rho or more, the rms error would
+    /// be more than twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
+    /// `tests/transmission.rs`).
     ///
-    /// At the bound the slope of the output is zero at the reversal of a saturated loop. There the
-    /// computed input changes at an unbounded rate, but its change in one sample is bounded, so a
-    /// slew-rate limit after the inverse does no harm.
+    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. The
+    /// computed input then changes at an unbounded rate, but by a bounded amount in one sample, so
+    /// a slew-rate limit after the inverse does no harm.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no float

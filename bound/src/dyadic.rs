@@ -20,7 +20,7 @@ enum Towards {
 
 /// `mantissa·2^exponent`, with at most 62 bits of mantissa.
 ///
-/// Every finite float is exactly such a number. It is written as `13*2^-4`, which is exact too.
+/// Every finite float is exactly such a number. The text form, such as `13*2^-4`, is exact too.
 ///
 /// ```
 /// use bowden_bound::Dyadic;

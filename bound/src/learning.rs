@@ -46,13 +46,13 @@ const MOST_HALVINGS: u32 = 80;
 ///
 /// The error therefore converges to its limit e* from any start. *Proof.* In units of cells, the
 /// learned feed-forward is `z⁻ⁿ·H` times its value n cells earlier, plus external inputs. This
-/// operator is causal, as `lead + half_width + 1 < n`. It is as stable as the loop, and its
-/// magnitude is below 1 on the unit circle. The magnitude is therefore below 1 everywhere outside
-/// the circle, so `1 − z⁻ⁿ·H` has no zero there. With a PI without forgetting it is 1 at `z = 1`:
-/// the learned mean and the integral of the law are interchangeable. The output shows neither. ∎
+/// operator is causal, because `lead + half_width + 1 < n`, and as stable as the loop. Its
+/// magnitude is below 1 on the unit circle, and therefore everywhere outside the circle, so `1 −
+/// z⁻ⁿ·H` has no zero there. With a PI without forgetting the magnitude is 1 at `z = 1`: the
+/// learned mean and the integral of the law are interchangeable, and the output shows neither. ∎
 ///
-/// A tone of `e − e*` falls by a factor of about |H| from cycle to cycle. The factor is exact
-/// if the change of a cycle has settled before the next one. At harmonics e* is zero if
+/// A tone of `e − e*` falls by a factor of about |H| from cycle to cycle; the factor is exact if
+/// the change of a cycle has settled before the next one. At the harmonics, e* is zero if
 /// forgetting is zero and Q is one. If Q is small, e* may be *larger* than the error without
 /// learning.
 ///
@@ -68,7 +68,7 @@ const MOST_HALVINGS: u32 = 80;
 /// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
 /// slope that changes along the path.
 ///
-/// If no proof is found, the number of regions may be too small rather than the range too wide.
+/// If no proof is found, the cause may be the limited number of regions and not the range.
 ///
 /// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 /// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.

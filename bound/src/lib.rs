@@ -18,13 +18,13 @@
 //!   [`IterativeLearning`](bowden::control::IterativeLearning) converges.
 //!
 //! Each certificate in the table is constructed from an [`Adaptive`](bowden::control::Adaptive) law
-//! and a [`Plant`], which holds the known ranges of the plant. The constructors of the certificates
-//! check what can be checked from these two. [`Certificate::assumptions`] lists the assumptions
-//! that the user must check. The documentation of each type states them in full.
+//! and a [`Plant`], which holds the known ranges of the plant. The constructors check every
+//! assumption that these two determine; [`Certificate::assumptions`] lists those that the user must
+//! check. The documentation of each type states all assumptions in full.
 //!
 //! **The bound of Theorem 1 is correct but vacuous.** With the gains of Table 2, alpha = 0.5 and
-//! Delta = 7 N·m, the bound is 1138 N·m. The measured error is 0.3 N·m RMS. The other certificates
-//! are useful.
+//! Delta = 7 N·m, the bound is 1138 N·m, whereas the measured error is 0.3 N·m RMS. The other
+//! certificates are useful.
 //!
 //! # Corrections to the paper
 //! - (35)-(38) hold only as limits superior, or for all time if V starts below phi/theta.
@@ -33,9 +33,9 @@
 //!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`: 7.056 N·m for the first parameter set
 //!   without d.
 //! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; for the clamped sign it is 1/4.
-//! - Remark 1 (less leakage, less error) is false for delta, which grows without bound as the
-//!   leakage tends to zero. The remark is true for the RMS certificate.
-//! - The "control laws (26), (30)" in the text are (19) and (23).
+//! - Remark 1 (less leakage gives a smaller error) is true for the RMS certificate, but false for
+//!   delta, which grows without bound as the leakage tends to zero.
+//! - The "control laws (26), (30)" in the text should read (19) and (23).
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -20,14 +20,15 @@ use bowden::{Error, Real};
 /// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` to the plant (both divided by s for a P).
 ///
 /// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`,
-/// whose zeros lie on the left by Routh. From there all numbers of the plant and L move along a
-/// straight line to a plant of the range and to the observer's latency. The plant then moves to any
-/// other plant of the range. In the right half-plane with `|s| >= r`, the first term of F is larger
-/// along this whole path. A zero could therefore cross only the imaginary axis, below r. There,
-/// intervals that are rounded outwards and bisected show that F is not zero (zero exclusion). ∎
+/// whose zeros lie on the left by Routh. From there, all numbers of the plant and L move along a
+/// straight line to a plant of the range and to the observer's latency, and the plant then moves to
+/// any other plant of the range. In the right half-plane with `|s| >= r`, the first term of F is
+/// the larger one along this whole path, so a zero could cross only the imaginary axis, below r.
+/// There, intervals that are rounded outwards and bisected show that F is not zero (zero
+/// exclusion). ∎
 ///
 /// For single plants the proved limit and the true stability limit agree to within a few per cent
-/// (test `bound`). Near the limit the proof may fail for a stable loop. It may also fail if the
+/// (test `bound`). The proof may fail for a stable loop if the loop is near the limit, or if the
 /// path leads through unstable plants.
 ///
 /// Further assumptions:
@@ -39,9 +40,9 @@ use bowden::{Error, Real};
 /// - friction and load are bounded disturbances;
 /// - libm's sine and cosine have an error of less than 1e-12.
 ///
-/// The range of f covers each slope of a hysteresis separately. It does not cover a slope that
-/// changes along the path. No range can contain a cable whose output falls while its input rises (f
-/// below zero). With such a cable the loop oscillates.
+/// The range of f covers each slope of a hysteresis separately, but not a slope that changes along
+/// the path. No range can contain a cable whose output falls while its input rises (f below zero):
+/// with such a cable the loop oscillates.
 ///
 /// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
 /// exclusion).

@@ -11,10 +11,10 @@ use bowden::Error;
 /// P~(s) = f·alpha·e^(−theta·s)/(1 + f·(s²/wn² + 2·zeta·s/wn)/(1 + c/K·s))
 /// ```
 /// With `f = 1` and `c/K = 0` the plant is the [`NominalPlant`](bowden::control::NominalPlant) with
-/// a delay. A damping c of the joint, parallel to its stiffness K, gives phase lead: 3 ms of c/K
-/// compensate for 3 ms of latency. A rig may be stable only because of this damping. Along the loop
-/// of a hysteresis the cable's output changes by f times its input. The motor then works against a
-/// stiffness of K/f.
+/// a delay. A damping c of the joint, parallel to its stiffness K, provides phase lead: a c/K of 3
+/// ms compensates for 3 ms of latency. A rig may be stable only because of this damping. Along the
+/// loop of a hysteresis, the cable's output changes by f times its input, so the motor works
+/// against a stiffness of K/f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -20,7 +20,7 @@ use bowden::{Error, Real};
 /// - bounds on the estimates, if any, that contain the true values;
 /// - no active limit.
 ///
-/// The algebra (27)-(34) is correct, but the bound is vacuous: leakage is by far the slowest rate,
+/// The algebra (27)-(34) is correct, but the bound is vacuous: leakage has by far the slowest rate,
 /// so theta is very small and delta very large.
 ///
 /// ```

@@ -1903,8 +1903,8 @@ typedef struct bowden_plausible_settings_f32 {
     // Number of equal samples in a row that mean a stuck sensor, counted while the
     // machine moves; 0 for never.
     uint32_t stuck_after;
-    // A longer or unusable dt counts as this dt, above zero [s]. With 0 such a time is
-    // unknown.
+    // A longer or unusable dt counts as this dt, above zero [s]; with 0, such a time
+    // is unknown.
     float longest_dt;
 } bowden_plausible_settings_f32;
 
@@ -1959,8 +1959,8 @@ typedef struct bowden_plausible_settings_f64 {
     // Number of equal samples in a row that mean a stuck sensor, counted while the
     // machine moves; 0 for never.
     uint32_t stuck_after;
-    // A longer or unusable dt counts as this dt, above zero [s]. With 0 such a time is
-    // unknown.
+    // A longer or unusable dt counts as this dt, above zero [s]; with 0, such a time
+    // is unknown.
     double longest_dt;
 } bowden_plausible_settings_f64;
 
@@ -2596,8 +2596,8 @@ bowden_result bowden_biquad_init_notch_f32(struct bowden_biquad_f32 *filter,
                                            const struct bowden_biquad_settings_f32 *settings,
                                            struct bowden_about *about);
 
-// Processes a sample taken `dt` [s] after the last call; `output` receives the
-// filtered value.
+// Filters a sample that was taken `dt` [s] after the last call; `output` receives the
+// result.
 //
 // The first good sample starts the filter at rest. If the sample is not finite, or dt
 // is not positive and finite, the last output is held (zero before the first sample):
@@ -2635,8 +2635,8 @@ bowden_result bowden_biquad_init_notch_f64(struct bowden_biquad_f64 *filter,
                                            const struct bowden_biquad_settings_f64 *settings,
                                            struct bowden_about *about);
 
-// Processes a sample taken `dt` [s] after the last call; `output` receives the
-// filtered value.
+// Filters a sample that was taken `dt` [s] after the last call; `output` receives the
+// result.
 //
 // The first good sample starts the filter at rest. If the sample is not finite, or dt
 // is not positive and finite, the last output is held (zero before the first sample):
@@ -2675,8 +2675,8 @@ bowden_result bowden_inverse_init_f32(struct bowden_inverse_f32 *inverse,
                                       const struct bowden_cable_settings_f32 *settings,
                                       struct bowden_about *about);
 
-// One desired output [output unit]: `input` receives the input [input unit] that
-// produces it. If the value is not finite, the last result is held:
+// Processes one desired output [output unit]; `input` receives the input [input unit]
+// that produces it. If the value is not finite, the last result is held:
 // BOWDEN_RESULT_HELD.
 bowden_result bowden_inverse_step_f32(struct bowden_inverse_f32 *inverse,
                                       float desired,
@@ -2711,8 +2711,8 @@ bowden_result bowden_inverse_init_f64(struct bowden_inverse_f64 *inverse,
                                       const struct bowden_cable_settings_f64 *settings,
                                       struct bowden_about *about);
 
-// One desired output [output unit]: `input` receives the input [input unit] that
-// produces it. If the value is not finite, the last result is held:
+// Processes one desired output [output unit]; `input` receives the input [input unit]
+// that produces it. If the value is not finite, the last result is held:
 // BOWDEN_RESULT_HELD.
 bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
                                       double desired,
@@ -2757,8 +2757,8 @@ bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learn
 // BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
 // not finite, the feed-forward follows the phase, and nothing is learned. If the phase
 // has jumped by more than four cells, the cell before the jump does not learn, and the
-// feed-forward jumps with the phase. Therefore give the controller a slew-rate limit.
-// `out` is written if the result is not negative.
+// feed-forward jumps with the phase, so give the controller a slew-rate limit. `out`
+// is written if the result is not negative.
 bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learning_f32 *learning,
                                                  float phase,
                                                  float reference,
@@ -2805,8 +2805,8 @@ bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learn
 // BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
 // not finite, the feed-forward follows the phase, and nothing is learned. If the phase
 // has jumped by more than four cells, the cell before the jump does not learn, and the
-// feed-forward jumps with the phase. Therefore give the controller a slew-rate limit.
-// `out` is written if the result is not negative.
+// feed-forward jumps with the phase, so give the controller a slew-rate limit. `out`
+// is written if the result is not negative.
 bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learning_f64 *learning,
                                                  double phase,
                                                  double reference,
@@ -2819,10 +2819,10 @@ bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learnin
 //
 // `length` is the length of the model, not of a larger array or sector: bytes after
 // the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
-// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
-// damaged, are too many, have the other precision or another version, or contain more
-// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first
-// two. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: there are damaged
+// or surplus bytes, the precision or the version is another one, or there are more
+// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for damaged or
+// surplus bytes. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
 // BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
 // does not use the bytes afterwards. On an error the object does not change.
 bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
@@ -2853,10 +2853,10 @@ bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 //
 // `length` is the length of the model, not of a larger array or sector: bytes after
 // the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
-// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
-// damaged, are too many, have the other precision or another version, or contain more
-// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first
-// two. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: there are damaged
+// or surplus bytes, the precision or the version is another one, or there are more
+// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for damaged or
+// surplus bytes. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
 // BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
 // does not use the bytes afterwards. On an error the object does not change.
 bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,

@@ -168,8 +168,8 @@ macro_rules! filters {
                 }
             }
 
-            /// Processes a sample taken `dt` [s] after the last call; `output` receives the
-            /// filtered value.
+            /// Filters a sample that was taken `dt` [s] after the last call; `output` receives the
+            /// result.
             ///
             /// The first good sample starts the filter at rest. If the sample is not finite, or dt
             /// is not positive and finite, the last output is held (zero before the first sample):

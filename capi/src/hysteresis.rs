@@ -267,8 +267,8 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// One desired output [output unit]: `input` receives the input [input unit] that
-            /// produces it. If the value is not finite, the last result is held:
+            /// Processes one desired output [output unit]; `input` receives the input [input unit]
+            /// that produces it. If the value is not finite, the last result is held:
             /// BOWDEN_RESULT_HELD.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_step_ $f>](

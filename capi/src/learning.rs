@@ -197,8 +197,8 @@ macro_rules! learning {
             /// BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
             /// not finite, the feed-forward follows the phase, and nothing is learned. If the phase
             /// has jumped by more than four cells, the cell before the jump does not learn, and the
-            /// feed-forward jumps with the phase. Therefore give the controller a slew-rate limit.
-            /// `out` is written if the result is not negative.
+            /// feed-forward jumps with the phase, so give the controller a slew-rate limit. `out`
+            /// is written if the result is not negative.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_step_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],

@@ -1,9 +1,8 @@
 //! The C interface of bowden: `include/bowden.h`, a static and a shared library.
 //!
 //! Nothing allocates. Every object is a struct that the caller owns: Rust's data between two magic
-//! words. Every function returns a [`bowden_result`]. Only this package has unsafe code. All of it
-//! is in `object.rs` and behind its functions, which read, check and write the memory behind a
-//! pointer.
+//! words. Every function returns a [`bowden_result`]. All unsafe code of this package is in
+//! `object.rs` and behind its functions, which read, check and write the memory behind a pointer.
 //!
 //! The head of the header states the rules for a C caller: a pointer is null or points to memory of
 //! its type, and no object is used from two threads at once.

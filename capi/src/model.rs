@@ -90,10 +90,10 @@ macro_rules! model {
             ///
             /// `length` is the length of the model, not of a larger array or sector: bytes after
             /// the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
-            /// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: the bytes are
-            /// damaged, are too many, have the other precision or another version, or contain more
-            /// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for the first
-            /// two. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
+            /// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: there are damaged
+            /// or surplus bytes, the precision or the version is another one, or there are more
+            /// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for damaged or
+            /// surplus bytes. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
             /// BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
             /// does not use the bytes afterwards. On an error the object does not change.
             #[no_mangle]

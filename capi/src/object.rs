@@ -1,8 +1,8 @@
 //! Reads, checks and writes the memory behind a pointer from C.
 //!
 //! An [`Object`] is memory that the caller owns: a magic word, Rust's data, and the inverted magic
-//! word. The first word of uninitialised memory differs, except with a probability of 2^-64. The
-//! last word reveals an array that was written beyond its end.
+//! word. The first word reveals uninitialised memory, except with a probability of 2^-64. The last
+//! word reveals a write beyond the end of an array.
 
 use crate::bowden_result;
 use crate::result::Refused;

@@ -79,8 +79,8 @@ macro_rules! plausible {
                 /// Number of equal samples in a row that mean a stuck sensor, counted while the
                 /// machine moves; 0 for never.
                 pub stuck_after: u32,
-                /// A longer or unusable dt counts as this dt, above zero [s]. With 0 such a time is
-                /// unknown.
+                /// A longer or unusable dt counts as this dt, above zero [s]; with 0, such a time
+                /// is unknown.
                 pub longest_dt: $f,
             }
 

@@ -1,8 +1,8 @@
 //! The mark at the start of each settings struct, which its macro in the header sets.
 //!
-//! C sets fields that a designated initialiser does not name to zero. For some settings zero is
-//! valid but not the default. A struct without the mark is therefore refused, and the macro gives
-//! each setting without a default an invalid value.
+//! C sets each field that a designated initialiser does not name to zero, which for some settings
+//! is valid but not the default. A struct without the mark is therefore refused, and the macro
+//! gives each setting without a default an invalid value.
 
 use crate::result::Refused;
 

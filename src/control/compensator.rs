@@ -4,14 +4,13 @@
 //! tau_i = inverse transmission(desired − Σ gain·regressor, eta)
 //! ```
 //!
-//! The feed-forward supplements a PI or an adaptive law. It also makes it possible to compare
-//! identification on the bench with online adaptation. The inverse is exact along the path of the
-//! hysteresis, from equations (5)-(7). The effects are evaluated at the given motions and
-//! subtracted first.
+//! The feed-forward supplements a PI or an adaptive law. First the effects are evaluated at the
+//! given motions and subtracted from the desired output; then equations (5)-(7) are inverted
+//! exactly along the path of the hysteresis.
 //!
-//! The model runs in open loop, so its state differs from the plant by the model error. Use the
-//! reference as the desired output, not the measured output: a noisy desired output destroys the
-//! hysteresis state ([`transmission`](crate::transmission)).
+//! Use the reference as the desired output, not the measured output: a noisy desired output
+//! destroys the hysteresis state ([`transmission`](crate::transmission)). The model runs in open
+//! loop, so its state differs from the plant's state by the model error.
 
 use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
@@ -132,13 +131,14 @@ impl<T: Real> BenchRange<T> {
     }
 }
 
-/// The inverse of a model as a feed-forward: the input for which the model gives the desired
-/// output.
+/// The inverse of a model as a feed-forward.
+///
+/// It computes the input for which the model produces the desired output.
 ///
 /// Two rules apply to effects that depend on the result:
 /// - An effect that reads the transmission's input or the load uses the values in the sample, for
-///   example the last command. Each sample is then one step of an iteration. The iteration
-///   converges if the slope of the effect over these values is below the gain of the cable.
+///   example the last command. Each sample is then one step of an iteration, which converges if the
+///   slope of the effect over these values is below the gain of the cable.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
 /// Without such effects the model's output for `command` is `desired`, except for rounding.
@@ -239,15 +239,15 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// The same compensator with a [`Play`] on the desired torque of the cable. Its half-width
     /// \[output unit\] is zero (no play) or more.
     ///
-    /// After each reversal the inverse is steep. Its steepness grows with kappa_eta up to the bound
+    /// After each reversal the inverse is steep, the more so the nearer kappa_eta is to the bound
     /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
-    /// was fitted *at* this bound (`bowden identify --invertible`) the steepness has no limit.
+    /// was fitted *at* this bound (`bowden identify --invertible`), the steepness has no limit.
     ///
-    /// A term that reads a velocity from encoder counts reverses the desired torque from sample to
-    /// sample, and the command chatters. A play removes these reversals. Choose its half-width a
-    /// little above half of one count's effect on the output: `|gain|·count/(2·time constant)` with
-    /// velocities from [`Rates`](crate::signal::Rates). The model's output then equals `desired` to
-    /// within the half-width.
+    /// A term that reads a velocity from encoder counts therefore makes the command chatter,
+    /// because it reverses the desired torque from sample to sample. A play removes these
+    /// reversals. Choose its half-width a little above half of one count's effect on the output:
+    /// `|gain|·count/(2·time constant)` with velocities from [`Rates`](crate::signal::Rates). The
+    /// model's output then equals `desired` to within the half-width.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -414,7 +414,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
     /// A new state that starts from the hysteresis state `eta` of the cable.
     ///
     /// # Errors
-    /// The same as [`BoucWenState::with_eta`]: `eta` is not finite, or it lies beyond ±1.
+    /// Those of [`BoucWenState::with_eta`]: `eta` is not finite or lies outside −1 to 1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }

@@ -4,11 +4,10 @@
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal width in phase; e is the mean of `reference − measured` over a
-//! cell. The feed-forward interpolates linearly between the learned values at the middles of the
-//! cells. A cell learns `lead + half_width` cells after its end, when all required errors are
-//! known. The cost is therefore spread over the cycle, and a gait or a wheel needs no pause between
-//! cycles.
+//! A cycle is divided into cells of equal width in phase; e is the mean of `reference − measured`
+//! over a cell. The feed-forward interpolates linearly between the learned values at the middles of
+//! the cells. A cell learns `lead + half_width` cells after its end, when all required errors are
+//! known. This spreads the cost over the cycle, so a gait or a wheel needs no pause between cycles.
 //!
 //! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has
 //! zero phase, and its gain lies between 0 and 1 for every tone (Fejér's kernel):
@@ -18,8 +17,8 @@
 //! ```
 //! Its gain is 0.71 for a tone at 0.32·(cells per second)/M.
 //!
-//! The learned value of a cell is limited, and so is the mean over cells. Hence the feed-forward
-//! lies within ±limit for any input. *Convergence* depends on gain, lead, Q and the loop
+//! The learned value of a cell is limited, and so is the mean over cells, so the feed-forward lies
+//! within ±limit for any input. *Convergence* depends on gain, lead, Q and the loop
 //! (`IterativeLearningConvergence` of `bowden-bound`).
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
@@ -151,7 +150,7 @@ crate::checked! {
         Ok(IterativeLearning { gain, limit, lead, half_width, forgetting })
     }
 
-    /// The same learning, but each cycle removes a share (0 to 1) of each learned value.
+    /// The same law, but each cycle removes a share (0 to 1) of each learned value.
     ///
     /// With forgetting, values that do not repeat decay, and an error remains.
     ///
@@ -273,10 +272,11 @@ impl<T: Real> IterativeLearning<T> {
     ///   feed-forward after a few such samples.
     /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
     ///   and the law does not learn from the sample.
-    /// - A jump is more than four cells forward or back in one sample. After a jump the cell before
-    ///   it does not learn. The `lead` cells before the new cell do not learn either: they were
-    ///   skipped, so the errors do not belong to them. A walking step that ends early at heel
-    ///   contact is such a jump; the last `lead + half_width` cells before it do not learn.
+    /// - A jump is more than four cells forward or back in one sample. After a jump, the cell
+    ///   before it does not learn. The `lead` cells before the new cell do not learn either,
+    ///   because they were skipped and the errors do not belong to them. A walking step that ends
+    ///   early at heel contact is such a jump; the last `lead + half_width` cells before it do not
+    ///   learn.
     /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
     ///   jitter the phase passes cells several times, and the law learns each time; in that case
     ///   filter the phase, or set `learns` to `false`.

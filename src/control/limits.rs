@@ -48,9 +48,9 @@ crate::checked! {
     /// may oscillate. Here noise is the largest change of the measured output between samples, and
     /// rate is the number of samples per second. Choose a higher slew-rate limit or a smaller gain.
     ///
-    /// The command is a float, and in `f32` the distance between neighbouring floats is about
-    /// 1.2e-7 of the command. If `slew·dt` is below this distance, a sample moves the command by
-    /// one such distance or not at all.
+    /// In `f32` the distance between neighbouring floats is about 1.2e-7 of the command. If
+    /// `slew·dt` is below this distance, a sample moves the command by one such distance or not at
+    /// all.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
@@ -94,9 +94,9 @@ impl<T: Real> Limits<T> {
 
     /// The command nearest to `wanted` that is reachable from `last` within `dt` \[s\].
     ///
-    /// The result always lies within the range, even if `last` does not. The result lies within
-    /// `slew·dt` of `last` if the range permits. NaN in `wanted`, or in `last` if it is needed,
-    /// stays NaN; controllers reject such a number earlier.
+    /// The result always lies within the range, even if `last` does not, and within `slew·dt` of
+    /// `last` if the range permits. NaN in `wanted`, or in `last` if it is needed, stays NaN;
+    /// controllers reject such a number earlier.
     #[inline]
     #[must_use]
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {
@@ -112,8 +112,9 @@ impl<T: Real> Limits<T> {
 }
 
 impl<T: Real> Limits<T> {
-    /// The command within the range that is nearest to `command`. For NaN it is the one nearest
-    /// to zero.
+    /// The command within the range that is nearest to `command`.
+    ///
+    /// For NaN, this is the command nearest to zero.
     #[inline]
     #[must_use]
     pub fn clamp(&self, command: T) -> T {

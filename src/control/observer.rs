@@ -6,17 +6,17 @@
 //! d_hat = Q·u_sent − Q·P⁻¹·y                    added to the next command
 //! ```
 //!
-//! The observer compares the command that the nominal plant needs for the measured output with the
-//! applied command. It filters the difference between the two commands through Q, and adds the
-//! filtered difference to the next command. Below `1/tau` the loop then sees the nominal plant
-//! instead of the plant with friction, as long as no limit is active.
+//! The observer subtracts the command that the nominal plant needs for the measured output from the
+//! applied command, filters the difference through Q, and adds it to the next command. Below
+//! `1/tau` the loop then sees the nominal plant instead of the plant with friction, as long as no
+//! limit is active.
 //!
-//! The observer needs no friction model. It needs alpha, wn and zeta, from the drive's
-//! specification or from a bench record; the adaptive law needs none of these parameters.
+//! The observer needs no friction model, but it needs alpha, wn and zeta, from the drive's
+//! specification or from a bench record. The adaptive law needs none of these parameters.
 //!
-//! Connect the observer to a controller's `feed_forward`; its own limit bounds it for any
-//! input. Combine it with the nominal plant's own inverse along the reference
-//! ([`NominalPlant::feed_forward`]). Do not combine it with an identified model
+//! Connect the estimate to a controller's `feed_forward`; its own limit bounds it for any input.
+//! Combine it with the nominal plant's inverse along the reference
+//! ([`NominalPlant::feed_forward`]), but not with an identified model
 //! ([`Compensator`](super::Compensator)): both would compensate the friction.
 //!
 //! Source: T. Umeno, Y. Hori, "Robust speed control of DC servomotors using modern two
@@ -185,8 +185,8 @@ impl<T: Real> DisturbanceObserver<T> {
     /// Processes one sample and returns the estimate to add to the next command.
     ///
     /// Call this method at every sample, before the controller. A bad sample holds the estimate,
-    /// and the next good sample includes its time. A sample is bad if `dt` is not positive or too
-    /// long, or if the command or the output is not finite. If the `dt` of a bad sample is
+    /// and its time is added to the next good sample. A sample is bad if `dt` is not positive or
+    /// too long, or if the command or the output is not finite. If the `dt` of a bad sample is
     /// unusable, its time counts as equal to the next `dt`. For any state the estimate is finite
     /// and within ±limit.
     #[inline]

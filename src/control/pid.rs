@@ -83,8 +83,8 @@ impl<T: Real> Pid<T> {
     /// The PID (14) of Nguyen et al. (2018), Table 1: `k_d` = 2, filtered over 0.1 s. It has no
     /// limits.
     ///
-    /// The paper does not specify the derivative filter. On the reference rig the loop diverges
-    /// with a filter time constant below 20 ms.
+    /// The paper does not specify the derivative filter; on the reference rig, the loop diverges
+    /// with a time constant below 20 ms.
     pub fn paper_pid() -> Self {
         Self::assumed(PidSettings {
             k_d: T::from_f64(2.0),
@@ -106,8 +106,8 @@ impl<T: Real> Pid<T> {
 
     /// A PI as the reference for an adaptive law: `k_p` = 30, `k_i` = 320. It has no limits.
     ///
-    /// The value 320 is the effective integral gain of the paper's adaptive law. A comparison
-    /// without this PI would attribute the effect of a higher gain to adaptation.
+    /// The value 320 is the effective integral gain of the paper's adaptive law. Without this PI, a
+    /// comparison would attribute the effect of a higher gain to adaptation.
     pub fn matched_pi() -> Self {
         Self::assumed(PidSettings::unlimited(
             T::from_f64(30.0),
@@ -177,10 +177,10 @@ impl<T: Real> Pid<T> {
 
     /// The limit that acts on the command (range or slew-rate limit), for an outer loop.
     ///
-    /// If the gains of this law are positive and the command is at its upper limit, a larger output
-    /// of the outer loop has no effect. Pass this result to the [`applied`](Self::applied) of the
-    /// outer loop. The result is the same whether the range cuts the command or the integral just
-    /// fills the range.
+    /// Pass the result to [`applied`](Self::applied) of the outer loop: if the gains of this law
+    /// are positive and the command is at its upper limit, a larger output of the outer loop has no
+    /// effect. The result is the same whether the range cuts the command or the integral just fills
+    /// the range.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
         let (command, limits) = (state.command(), &self.settings.limits);
@@ -199,9 +199,10 @@ impl<T: Real> Pid<T> {
     ///
     /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
     /// start then continue from the applied command. The integral reverses the part of its last
-    /// change that exceeds the drive's limit; with [`AntiWindup::None`] it keeps this part. With
+    /// change that exceeds the drive's limit, except with [`AntiWindup::None`]. With
     /// back-calculation, the part that the drive cut off returns to the integral. The next command
-    /// still contains the full demand, so a recovered drive is used at once. See [`Applied`].
+    /// still contains the full demand, so a drive that has recovered is used at once. See
+    /// [`Applied`].
     pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
         let out = state.command();
         let (less, sent) = match applied {
@@ -237,10 +238,9 @@ impl<T: Real> Pid<T> {
     /// Continues a running state with other settings, without a jump of the command.
     ///
     /// Every setting may differ. The integral moves as little as possible: at the last good sample
-    /// the new terms add up to the applied command. If a limit cut off the old sum and cuts off the
-    /// new sum too, the new terms add up to a value beyond that limit. The only remaining change of
-    /// the command is one step of the integral at the next sample. Limits that exclude the command
-    /// take priority.
+    /// the new terms add up to the applied command, or to a value beyond a limit that cuts off both
+    /// the old and the new sum. The next command differs only by one step of the integral. Limits
+    /// that exclude the command take priority.
     ///
     /// A law without `k_i` returns the integral to zero: see [`PidSettings::k_i`]. A change to PIV
     /// requires earlier samples with a velocity. Without a good sample nothing changes. If the sum

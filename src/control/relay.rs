@@ -6,10 +6,10 @@
 //!
 //! k_u = 4·d·sin(pi·D)/(pi·sqrt(a² − eps²))      T_u = period of the limit cycle
 //! ```
-//! A relay with hysteresis eps makes the loop oscillate near its ultimate frequency. The level d
-//! determines the amplitude. The amplitude a is half the distance from the lowest to the highest
-//! output of a cycle. D is the share of the period in which the command is `centre + d`.
-//! [`Ultimate::pi`] turns k_u and T_u into the gains of a [`Pid`](super::Pid).
+//! A relay with hysteresis eps makes the loop oscillate near its ultimate frequency, with an
+//! amplitude that depends on the level d. The amplitude a is half the distance from the lowest to
+//! the highest output of a cycle, and D is the share of the period in which the command is `centre
+//! + d`. [`Ultimate::pi`] turns k_u and T_u into the gains of a [`Pid`](super::Pid).
 //!
 //! - **Describing function.** The formula uses the first harmonic of the command only. Compared
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
@@ -22,16 +22,16 @@
 //!   harmonics increase a, so k_u is too low: by 5 % for 1/(s + 1)³ and D = 0.62. If the mean
 //!   command `centre + d·(2·D − 1)` is used as the next centre, the half-periods become equal.
 //! - **Sampling.** The relay switches at the sample after the crossing, up to one `dt` late. The
-//!   measured period is the true period of this sampled loop. This period exceeds the period of a
-//!   continuous relay by two `dt` on average and by four `dt` at most. A sampled controller has the
-//!   same average delay of half a `dt`, so no correction is necessary.
+//!   measured period is the true period of this sampled loop, which is longer than that of a
+//!   continuous relay: by two `dt` on average and by four `dt` at most. A sampled controller has
+//!   the same average delay of half a `dt`, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the output leaves its range or the relay never switches back. The experiment then fails
 //!   with `OutputOutOfRange` or `NoOscillation`.
-//! - **Duration.** Every sample, good or bad, consumes part of an integer time budget. The
-//!   experiment therefore ends within `longest_time`. A sample without a usable `dt` consumes
-//!   `longest_dt`. A failure latches the safe command until [`RelayState::acknowledge`]. After a
-//!   success the relay applies the centre.
+//! - **Duration.** Every sample, good or bad, consumes part of an integer time budget, so the
+//!   experiment ends within `longest_time`. A sample without a usable `dt` consumes `longest_dt`.
+//!   After a success the relay applies the centre; a failure latches the safe command until
+//!   [`RelayState::acknowledge`].
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
 //! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay
@@ -57,8 +57,8 @@ mod proofs;
 
 /// A relay experiment for the tuning of a PI loop; checked, immutable.
 ///
-/// Start with the output near the reference: at the mean command of the previous loop, or at
-/// rest. Afterwards start a [`Pid`](super::Pid) from the applied command.
+/// Start with the output near the reference: at the mean command of the previous loop, or at rest.
+/// Afterwards, resume a [`Pid`](super::Pid) from the applied command.
 ///
 /// ```
 /// use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState, PiRule};

@@ -85,13 +85,13 @@ impl Status {
 crate::checked::stored! {
     /// The safe command after repeated bad samples.
     ///
-    /// A score counts the bad samples: a bad sample adds the weight, and a good sample subtracts 1. At
-    /// `after·weight` the safe command is applied and latched. The safe command is therefore applied
+    /// A bad sample adds the weight to a fault counter, and a good sample subtracts 1. At
+    /// `after·weight` the safe command is applied and latched, that is,
     /// - at the `after`-th bad sample in a row, and
     /// - at the latest after any n samples with B bad ones if `(weight + 1)·B − n ≥ after·weight`.
     ///
     /// With weight 4 the second condition is met if more than one sample in five is bad for long
-    /// enough. A single good sample does not reset the score.
+    /// enough. A single good sample does not reset the counter.
     ///
     /// ```
     /// use bowden::control::Fallback;
@@ -147,8 +147,8 @@ crate::checked! {
 
     /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
     ///
-    /// With 1, every second sample may be bad without a fault. 0 is refused, because the fault
-    /// counter would never rise.
+    /// With a weight of 1, every second sample may be bad without a fault. A weight of 0 is
+    /// refused, because the fault counter would never rise.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"`.
@@ -182,7 +182,7 @@ impl<T: Real> Fallback<T> {
         self.weight
     }
 
-    /// The score at which the safe command is applied: `after·weight`.
+    /// The fault counter at which the safe command is applied: `after·weight`.
     pub const fn most(&self) -> u32 {
         self.most
     }
@@ -223,8 +223,8 @@ pub(crate) enum Latch {
 /// The drive's response to the last command.
 ///
 /// A controller assumes that the drive applies its command. Report any other response between two
-/// steps. Examples are an open safety relay, a current limit in the drive, and an inner loop at its
-/// limit. The slew-rate limit, anti-windup and a bumpless start then continue from the applied
+/// steps, for example with an open safety relay, a current limit in the drive, or an inner loop at
+/// its limit. The slew-rate limit, anti-windup and a bumpless start then continue from the applied
 /// command.
 ///
 /// ```

@@ -202,8 +202,8 @@ pub(super) const COUNT: Error =
 
 /// One effect as a separate type: its properties and its regressor.
 ///
-/// A [`FixedModel`](crate::model::FixedModel) uses it; [`Effect`](super::Effect) holds any effect.
-/// Only the effects of this crate implement the trait.
+/// A [`FixedModel`](crate::model::FixedModel) uses this trait; an [`Effect`](super::Effect) can
+/// hold any effect. Only the effects of this crate implement the trait.
 pub trait Regressor<T>: sealed::Sealed + Sized {
     /// Properties of the effect, without its shape parameters.
     const INFO: &'static Info;

@@ -77,7 +77,7 @@ impl<T: Real> Inputs<T> {
 }
 
 crate::checked::stored! {
-    /// The memory of one effect: a few numbers, or none before the first sample.
+    /// The internal state of one effect, empty before the first sample.
     ///
     /// The meaning of the numbers depends on the effect, so a state belongs to one effect.
     /// `EffectState::default()` is a new state.

@@ -14,8 +14,8 @@ effect! {
     /// distance 2·r. In series, the same play acts on the transmission's input: the hysteresis and
     /// the gain then act on `play(x; r)` instead of x.
     ///
-    /// `play(x; r) − x` is `−stop(x; r)`, which is [`Presliding`](super::Presliding) times −r. No
-    /// record can distinguish the two.
+    /// No record can distinguish this effect from [`Presliding`](super::Presliding), because
+    /// `play(x; r) − x` is `−stop(x; r)`, which is `Presliding` times −r.
     ///
     /// Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
     /// — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -318,9 +318,9 @@ effect! {
     /// The low-pass of the output minus the output; its state starts at the first output.
     ///
     /// Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds
-    /// each sample over its dt, so it is exact for steps at any dt. Rounding limits the increment
-    /// of a step, so the memory stops at a distance from its target of up to tau/dt times half an
-    /// epsilon. In `f32` this distance is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6. The lag is an
+    /// each sample over its dt, so it is exact for steps at any dt. Because of rounding, the memory
+    /// stops short of its target by a relative error of up to `tau/dt` times half the machine
+    /// epsilon. In `f32` this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6. The lag is an
     /// output stage: it reads the sum of all terms before it.
     ///
     /// Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.

@@ -1,10 +1,10 @@
 //! Effects of a cable transmission other than its hysteresis.
 //!
-//! Each effect is one *regressor* times a gain that the fit identifies. A regressor is a
-//! function of the motion, the load and the hysteresis state. Each effect states its formula,
-//! unit, symmetries, shape parameters and source. The symmetries show which effects can explain
-//! a residual, and which experiment separates two effects from each other. Each effect is a type
-//! of its own; [`Effect`] holds any of them.
+//! Each effect is a *regressor*, a function of the motion, the load and the hysteresis state, times
+//! a gain that the fit identifies. Each effect states its formula, unit, symmetries, shape
+//! parameters and source. The symmetries show which effects can explain a residual, and which
+//! experiment separates two effects. Each effect is a type of its own; [`Effect`] can hold any of
+//! them.
 //!
 //! A regressor is finite for finite input: it saturates if the arithmetic overflows. If an
 //! input is not finite or `dt` is negative, the regressor returns 0 and leaves its memory
@@ -119,7 +119,7 @@ macro_rules! effects {
             }
 
             /// The regressors of a record, one per sample. Each equals
-            /// [`regressor`](Self::regressor) bit for bit; for many samples the cost is lower.
+            /// [`regressor`](Self::regressor) bit for bit, at a lower cost for many samples.
             pub fn regressors(
                 &self,
                 state: &mut EffectState<T>,
@@ -323,7 +323,7 @@ impl<T: Real> Effect<T> {
     }
 
     /// The contributions of a term with this gain along a record, one per sample. Each equals
-    /// [`contribution`](Self::contribution) bit for bit; for many samples the cost is lower.
+    /// [`contribution`](Self::contribution) bit for bit, at a lower cost for many samples.
     pub fn contributions(
         &self,
         gain: T,

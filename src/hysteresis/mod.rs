@@ -17,7 +17,7 @@
 //! - unloading, `zeta < 0`: `f = 1 + c·|zeta|^n`.
 //!
 //! A reversal is `zeta -> -zeta`. A sample advances the state by an input increment, never by a
-//! time step. The result does not depend on the sampling rate.
+//! time step, so the result does not depend on the sampling rate.
 //!
 //! Two methods integrate along the path. Both keep `|eta| <= 1` for any increment.
 //! - [`BoucWen::advance_split`] splits a long increment, so any jump is accurate. `f64`
@@ -41,10 +41,10 @@
 //! an inaccurate power function.
 //!
 //! Where `n·(1 - zeta) <= 0.03` the rest of the path is a logistic equation with a closed-form
-//! solution. The local error determines where a long increment is split. The cost of a jump
-//! therefore grows with `ln(sigma)` only. A jump from one saturation to the other evaluates at most
-//! 30 powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`). A sampled signal
-//! needs one power per sample.
+//! solution. The local error determines where a long increment is split, so the cost of a jump
+//! grows only with `ln(sigma)`. A jump from one saturation to the other evaluates at most 30 powers
+//! for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`). A sampled signal needs one
+//! power per sample.
 //!
 //! # The bounded-time step
 //! For any increment, the step evaluates one power `a^(n-1)` and calls no libm function. The power
@@ -99,8 +99,8 @@
 //! # Slope
 //! In the bounded-time step, eta rises by at most `2·sigma` times the path. This bound is proved up
 //! to `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. From about `n = 12`
-//! on, the slope while unloading is up to 1.39 times this value. An inverse near its largest sigma
-//! may then have more than one solution.
+//! on, the slope while unloading is up to 1.39 times this value, and an inverse near its largest
+//! sigma may have more than one solution.
 //!
 //! Source: Bouc 1967, Wen 1976; equations (2), (7); Ikhouane & Rodellar,
 //! *Systems with Hysteresis*, Wiley 2007, chapters 2 and 4.

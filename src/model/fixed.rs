@@ -1,8 +1,8 @@
 //! A model whose effects are fixed at compile time.
 //!
-//! A [`Model`] holds any effect, so the image contains the code of all effects. In a [`FixedModel`]
-//! the effects are types: the image contains only the named effects, and a sample costs only their
-//! time. Both give the same numbers, to the bit.
+//! A [`Model`] can hold any effect, so the image contains the code of all effects. In a
+//! [`FixedModel`] the effects are types, so the image contains only these effects, and a step takes
+//! only their time. Both compute the same numbers, bit for bit.
 
 use super::{motion, Model, ModelState, Sample, Term};
 use crate::effect::{saturate, Effect, EffectState, Inputs, Motion, Quantity, Regressor, Stage};

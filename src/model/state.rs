@@ -33,7 +33,7 @@ impl<T: Real, const N: usize> ModelState<T, N> {
     /// A new state with an identified initial hysteresis state.
     ///
     /// # Errors
-    /// The same as [`BoucWenState::with_eta`]: `eta` is not finite, or it lies beyond ±1.
+    /// Those of [`BoucWenState::with_eta`]: `eta` is not finite or lies outside −1 to 1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }

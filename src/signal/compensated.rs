@@ -7,9 +7,9 @@ use crate::Real;
 crate::checked::stored! {
     /// A running sum with the rounding error of its last addition.
     ///
-    /// Integrals and estimates move by a small increment each sample. In `f32` an increment below half
-    /// an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves an
-    /// estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
+    /// Integrals and estimates move by a small increment at each sample. In a plain `f32` sum, an
+    /// increment below half an ulp has no effect: for example, a leakage of 0.001/s at 20 kHz moves
+    /// an estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
     ///
     /// ```
     /// use bowden::signal::Compensated;

@@ -68,9 +68,9 @@ impl<T: Real> Derivative<T> {
     ///
     /// A sample is bad if it is not finite, if `dt` is not positive and finite, or if the result
     /// overflows. A bad sample leaves the state unchanged and returns the last rate. The state does
-    /// not store the time of a bad sample: add this time to the `dt` of the next good one.
-    /// Otherwise the computed rate of a moving signal is too large. [`Rates`](crate::signal::Rates)
-    /// does this.
+    /// not store the time of a bad sample. Add this time to the `dt` of the next good sample, as
+    /// [`Rates`](crate::signal::Rates) does; otherwise the computed rate of a moving signal is too
+    /// large.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() {

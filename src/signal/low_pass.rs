@@ -11,10 +11,10 @@ crate::checked::stored! {
     /// form. It is stable at any `dt`, which may vary, and needs no exponential. The corner is
     /// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
     ///
-    /// The first good sample starts the filter at rest: the output is that sample. The output leaves
-    /// the range of the samples only through rounding. The output is a [`Compensated`] sum. A plain
-    /// `f32` lag stops once its increment is less than half a unit in the last place. With a tau of
-    /// 1000·dt it would stop up to 3e-5 of the target away from it.
+    /// The first good sample starts the filter at rest: the output is that sample. The output
+    /// leaves the range of the samples only through rounding. The output is a [`Compensated`] sum:
+    /// a plain `f32` lag stops once its increment is less than half a unit in the last place, with
+    /// a tau of 1000·dt up to 3e-5 of the target away from it.
     ///
     /// For a second-order filter, see [`Biquad`](super::Biquad).
     ///

@@ -7,10 +7,10 @@ use crate::{Error, Real};
 crate::checked::stored! {
     /// Plausibility check of a sensor: range, rate limit and stuck value.
     ///
-    /// A controller rejects NaN by itself. It cannot detect a finite but wrong reading: an encoder that
-    /// was reset, a shorted bridge, or a bus that repeats its last frame. Use a `Plausible` before each
-    /// input. It turns an implausible sample into NaN; the controller then holds its command and counts
-    /// the sample.
+    /// A controller rejects NaN by itself, but cannot detect a finite and wrong reading: an encoder
+    /// that was reset, a shorted bridge, or a bus that repeats its last frame. Put a `Plausible` in
+    /// front of each input. It turns an implausible sample into NaN, and the controller then holds
+    /// its command and counts a bad sample.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -103,14 +103,14 @@ crate::checked! {
     /// Do not use a rate limit for an angle that wraps: each wrap is too fast. Instead, check the
     /// range of the velocity from [`Rates`](crate::signal::Rates), which knows the period.
     ///
-    /// A sensor may be slower than the loop. A repeated reading counts as the same measurement,
+    /// A sensor may be slower than the loop, so a repeated reading counts as the same measurement,
     /// whose age grows. The next reading may differ by `rate` times the time since the last
-    /// *change*. A correct sensor never exceeds the rate, even if it repeats each reading several
-    /// times. After a reading has repeated for `t` seconds, the check accepts a spike of up to
-    /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`, as after any
-    /// gap. [`with_sample_period`](Self::with_sample_period) bounds the spike and this time. Set it
-    /// for a sensor whose readings repeat while the signal rests (an encoder), and for a sensor
-    /// that is not synchronous with the loop.
+    /// *change*. A correct sensor therefore never exceeds the rate, even if it repeats each reading
+    /// several times. After a reading has repeated for `t` seconds, the check accepts a spike of up
+    /// to `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`, as after
+    /// any gap. [`with_sample_period`](Self::with_sample_period) bounds the spike and this time.
+    /// Set it for a sensor whose readings repeat while the signal rests (an encoder), and for a
+    /// sensor that is not synchronous with the loop.
     ///
     /// During a gap the permitted distance grows with time. If a signal has really moved, the check
     /// accepts it after the time `distance/rate`, rounded up to the next sample. After this time it
@@ -158,8 +158,8 @@ crate::checked! {
 
     /// The same check with a longest `dt` \[s\]: a longer or unusable `dt` counts as this one.
     ///
-    /// A wrapped counter reports a `dt` of an hour, or a negative `dt`. Any signal may have moved
-    /// anywhere in that time: the check would accept one spike and reject every true sample after
+    /// A wrapped counter reports a `dt` of an hour, or a negative `dt`. In that time any signal may
+    /// have moved anywhere, so the check would accept one spike and reject every true sample after
     /// it.
     ///
     /// # Errors
@@ -174,8 +174,8 @@ impl<T: Real> Plausible<T> {
     /// The same check with a stuck limit: `samples` equal readings in succession mean that the
     /// sensor is stuck; 0 disables this check.
     ///
-    /// A sensor counts as stuck until its reading changes, even at rest. If the machine cannot move
-    /// for this reason, use a new [`PlausibleState`], which treats the sensor as sound.
+    /// A sensor counts as stuck until its reading changes, even at rest. If this prevents the
+    /// machine from moving, use a new [`PlausibleState`], which treats the sensor as sound.
     ///
     /// Equal readings count only while the machine moves. A coarse encoder repeats its reading at
     /// low speed: choose more samples than one of its counts lasts at that speed.

@@ -8,8 +8,8 @@ crate::checked::stored! {
     /// A reference ramp: a rate limit, then a first-order lag.
     ///
     /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-    /// reference can demand more than the drive can deliver; the anti-windup, not the gains, then
-    /// determines the response.
+    /// reference can demand more than the drive can deliver. The anti-windup then determines the
+    /// response, not the gains.
     ///
     /// ```
     /// use bowden::signal::{Ramp, RampState};
@@ -63,9 +63,9 @@ crate::checked! {
     /// The same ramp with a longest `dt` \[s\]: a longer `dt` leaves the reference unchanged;
     /// default: any finite `dt` moves it.
     ///
-    /// Without this limit a wrapped counter would move the reference to its target in one
-    /// sample. The controller rejects that sample, and the next sample would be a step. Use the
-    /// controller's own longest dt.
+    /// Use the controller's own longest dt. Without this limit, a wrapped counter would move the
+    /// reference to its target in one sample; the controller rejects that sample, and sees a step
+    /// at the next one.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.

@@ -158,8 +158,7 @@ crate::checked! {
     /// Rates with `time_constant > 0` \[s\].
     ///
     /// The longest gap is ten time constants. A loop with a longer sample time needs
-    /// [`with_longest_gap`](Self::with_longest_gap); otherwise each of its samples restarts the
-    /// rates.
+    /// [`with_longest_gap`](Self::with_longest_gap); otherwise every sample restarts the rates.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -176,9 +175,8 @@ crate::checked! {
     /// The fit smooths its derivatives with a corner at 2.5 times its cut-off f_c. These rates have
     /// the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity has 93 % of its amplitude and
     /// lags by 22°; the acceleration has 86 % and lags by 44°. The delays are `0.064/f_c` and
-    /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase. With causal
-    /// rates the model's error is therefore larger; a shorter tau reduces the delay but increases
-    /// the noise.
+    /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase, so the model's
+    /// error is larger with causal rates. A shorter tau reduces the delay but increases the noise.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also if the time constant
@@ -200,8 +198,8 @@ crate::checked! {
     ///
     /// The position of the motion is unwrapped: it continues when the counter wraps. Between two
     /// good samples the axis must move by less than half a period. `period > 2·|v|·longest_gap`
-    /// therefore makes every gap safe. Turns are counted up to 2³¹. Beyond that number the position
-    /// has an error of whole periods, but the rates are still correct.
+    /// therefore makes every gap safe. Turns are counted up to 2³¹. Beyond this number the position
+    /// is wrong by whole periods, but the rates are still correct.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.

@@ -42,8 +42,8 @@ impl<T: Real> Inverse<T> {
     ///
     /// The forward model then returns `desired_output` to 16 machine epsilons of the magnitudes in
     /// its equation, including the last input. The smallest guaranteed error is the smallest normal
-    /// number. The method is a secant method along the path inside a bracket that always contains
-    /// the solution. The method starts with the slope of the path. It usually needs one or two
+    /// number. The method is a secant method along the path, inside a bracket that always contains
+    /// the solution, and starts with the slope of the path. It usually needs one or two
     /// evaluations, and never more than 100.
     ///
     /// A state before its first input keeps its eta in this step, as in the forward model. The

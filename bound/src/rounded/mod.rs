@@ -16,15 +16,15 @@ use gains::Gains;
 
 /// The box theorem of the first-order form, for the shipped step, with every rounding.
 ///
-/// [`PeakSampled`](super::PeakSampled) applies to exact numbers. This theorem applies to the
-/// floats of the controller. Let `|s| <= S`, `|z| <= Z`, and let the carries of the sums of z
-/// and of the command be at most the rounding error of their last addition. If the nine
-/// [`inequalities`](Self::inequalities) hold, these conditions hold after every step too, and
-/// `|e| <= S + lambda·Z` at every sample, for `f32` and `f64`.
+/// [`PeakSampled`](super::PeakSampled) applies to exact numbers; this theorem applies to the floats
+/// of the controller. Let `|s| <= S`, `|z| <= Z`, and let the carries of the sums of z and of the
+/// command be at most the rounding error of their last addition. If the nine
+/// [`inequalities`](Self::inequalities) hold, these conditions hold after every step too, and `|e|
+/// <= S + lambda·Z` at every sample, for `f32` and `f64`.
 ///
-/// Each inequality is computed in integers, rounded outwards: the proof does not rely on a float.
-/// The computation needs no heap, so a controller can check its own gains at start-up. Its time on
-/// a microcontroller has not been measured.
+/// Each inequality is computed in integers, rounded outwards, so the proof does not rely on a
+/// float. The computation needs no heap, so a controller can check its own gains at start-up; the
+/// time that it takes on a microcontroller has not been measured.
 ///
 /// *Proof.* The exact step stays in the box with a margin, as in
 /// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the margin. The theorem

@@ -1,7 +1,7 @@
 //! The progress bar on a terminal.
 //!
-//! Where there is none, in a web page, a bar does nothing: `indicatif` would bring the bindings of a
-//! clock into the program of the page.
+//! Without a terminal, in a web page, a bar does nothing, because `indicatif` would add the
+//! bindings of a clock to the page.
 
 #[cfg(not(target_family = "wasm"))]
 pub use indicatif::{ProgressBar, ProgressStyle};
@@ -15,7 +15,7 @@ mod absent {
     use std::fmt::Error;
     use std::time::Duration;
 
-    /// A bar that nobody sees.
+    /// A bar that is not shown.
     pub struct ProgressBar;
 
     /// Its style.

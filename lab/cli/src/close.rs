@@ -170,7 +170,7 @@ impl Close {
         outputs::check(&read, &outputs)
     }
 
-    /// The records; for a page, with the hashes of what was read.
+    /// The records; for a page, with the hashes of their bytes.
     fn read(&self, asked: &Asked) -> Result<(Vec<Record>, Vec<Source>), Failure> {
         if self.records.is_empty() {
             let stored = stored_csv();
@@ -187,8 +187,8 @@ impl Close {
     }
 }
 
-/// The model and its test vector, each with its file; where each record has gains of its own, one
-/// of both for each.
+/// The model and its test vector, each with its file; with separate gains, one pair for each
+/// record.
 fn model_files(path: &Path, models: &[Handed]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let form = model_form(path)?;
     let mut all = Vec::new();
@@ -203,7 +203,7 @@ fn model_files(path: &Path, models: &[Handed]) -> Result<Vec<(PathBuf, Vec<u8>)>
     Ok(all)
 }
 
-/// The files of so many models.
+/// The files of the given number of models.
 fn written(path: &Path, models: usize) -> Vec<PathBuf> {
     match models {
         1 => vec![path.to_owned()],
@@ -211,7 +211,7 @@ fn written(path: &Path, models: usize) -> Vec<PathBuf> {
     }
 }
 
-/// The test vector of a model, beside it.
+/// The test vector of a model, in the same folder.
 fn vector_of(model: &Path) -> PathBuf {
     model.with_extension("vector.csv")
 }

@@ -95,7 +95,7 @@ struct RigOptions {
 }
 
 impl RigOptions {
-    /// Numbers that no rig has are told by the option that names them.
+    /// An error names the option with a number that is invalid for a rig.
     fn check(&self) -> Result<(), Failure> {
         let positive = [
             ("--drive-gain", self.drive_gain),

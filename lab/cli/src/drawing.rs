@@ -1,4 +1,4 @@
-//! The page or the single figure that `identify` and `validate` draw.
+//! The page or the individual figure that `identify` and `validate` draw.
 
 use bowden_lab::facts::{Figures, Source};
 use bowden_page::{figure, Figure, Provenance};
@@ -48,12 +48,12 @@ impl Drawing {
         self.report.is_some() || self.plot.is_some()
     }
 
-    /// Whether the page is wanted, which needs to know its sources.
+    /// Whether a page is requested, which needs its sources.
     pub fn is_page(&self) -> bool {
         self.report.is_some()
     }
 
-    /// The options that are given, with their files.
+    /// The given options, with their files.
     pub fn outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let both = [("--report", &self.report), ("--plot", &self.plot)];
         both.into_iter()
@@ -78,7 +78,7 @@ impl Drawing {
     }
 }
 
-/// How a page was obtained: this program's command line and what it has read.
+/// The origin of a page: the command line and the files that were read.
 pub fn provenance(sources: Vec<Source>) -> Provenance {
     let mut command = "bowden".to_owned();
     for argument in std::env::args_os().skip(1) {
@@ -92,7 +92,7 @@ pub fn provenance(sources: Vec<Source>) -> Provenance {
     }
 }
 
-/// An argument as a shell takes it back.
+/// An argument, quoted for a shell.
 #[must_use]
 pub fn quoted(argument: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_=.,:/@+%".contains(c);

@@ -4,7 +4,7 @@ use super::Failure;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Endings of the files of an option that writes one form; none where it may be any.
+/// Allowed endings of the files of an option; none if any ending is allowed.
 fn endings(option: &str) -> &'static [&'static str] {
     match option {
         "--report" => &["html", "htm"],
@@ -14,9 +14,8 @@ fn endings(option: &str) -> &'static [&'static str] {
     }
 }
 
-/// Whether each output could be written, found out before anything is read: its folder exists
-/// and takes a file, it is none of the files that are read, no other option writes it, and its name
-/// is one of its form.
+/// Checks, before anything is read, that each output can be written: its folder exists and is
+/// writable, it is not an input, no other option writes it, and its name has the right ending.
 pub fn check(read: &[&Path], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
     for (index, (option, path)) in outputs.iter().enumerate() {
         writable(option, path, read)?;
@@ -101,22 +100,22 @@ fn behind_links(path: &Path) -> PathBuf {
     }
 }
 
-/// A file of this process beside another one.
+/// A temporary file of this process in the folder of another file.
 fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.{ending}", std::process::id()));
     path.with_file_name(name)
 }
 
-/// Writes a whole file or none: into a neighbour first, which then takes its name.
+/// Writes a whole file or none: first a temporary file in the same folder, which is then renamed.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write_together(&[(path.to_owned(), bytes.to_vec())])
 }
 
-/// Writes all files or none: each into a neighbour first; once all are on the disk each
-/// takes its name, the last ones first. A file that was there keeps its bytes until then, and
-/// has them again where a later file cannot be written. Of a link the file behind it is written.
-/// Devices and pipes get their bytes once all files are there.
+/// Writes all files or none: first temporary files in the same folders; when all are on the disk,
+/// they are renamed, the last ones first. An existing file keeps its bytes until then, and gets
+/// them back if a later file cannot be written. If the path is a link, its target is written.
+/// Devices and pipes receive their bytes after all files.
 pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
     let (streams, files): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_stream(path));
     let files: Vec<(PathBuf, &[u8])> = files

@@ -27,7 +27,7 @@ enum Part {
     Folders,
 }
 
-/// The files whose names the pattern matches, by name; none where there are none.
+/// The files whose names match the pattern, sorted by name.
 pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
     let text = pattern.to_string_lossy();
     let refused = |e: glob::PatternError| format!("{text}: is not a pattern: {}", e.msg);
@@ -60,8 +60,7 @@ pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// Bytes of a header that are looked at: more than any model's channels need.
 const HEADER: u64 = 1 << 16;
 
-/// Whether this is a test vector that `identify --model-out` has written: by its name and its first
-/// line.
+/// Whether a file is a test vector from `identify --model-out`, by its name and its first line.
 pub fn is_vector(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let first = || {
@@ -105,7 +104,7 @@ fn walk(path: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(), F
     }
 }
 
-/// The names in a folder; none where the path is no folder.
+/// The names in a folder; none if the path is not a folder.
 fn names(folder: &Path) -> Result<Vec<OsString>, Failure> {
     let here = Path::new(".");
     let folder = if folder.as_os_str().is_empty() {

@@ -14,8 +14,8 @@ const STEPS: u64 = 1000;
 /// Where the search begins and ends.
 const SEARCH: [f64; 2] = [0.08, 0.80];
 
-/// Share of the work that is done when a step begins, 0 to 1; `None` for a message that is no
-/// step.
+/// Share of the work that is complete when a step begins, 0 to 1; `None` for a message that is not
+/// a step.
 #[must_use]
 pub fn share(step: &str) -> Option<f64> {
     if let Some(rest) = step.strip_prefix("searching for missing terms, round ") {
@@ -40,7 +40,7 @@ pub fn share(step: &str) -> Option<f64> {
     })
 }
 
-/// Tells the bar what is being done.
+/// Shows the present step on the bar.
 pub fn telling(bar: &ProgressBar) -> impl Fn(&str) + Sync + '_ {
     |what| {
         bar.set_message(what.to_owned());
@@ -51,7 +51,7 @@ pub fn telling(bar: &ProgressBar) -> impl Fn(&str) + Sync + '_ {
     }
 }
 
-/// A bar on a terminal, nothing elsewhere.
+/// A bar on a terminal; nothing elsewhere.
 pub fn progress() -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();

@@ -172,9 +172,9 @@ fn vectors(count: usize) -> String {
     }
 }
 
-/// The files of arguments that may be patterns (`runs/*.csv`), where the shell has not put
-/// files in their place: those of a pattern by name. A file of that very name comes first. Of the
-/// files of a pattern test vectors, which this program writes beside a model, are no records.
+/// The files of arguments that may be patterns (`runs/*.csv`), if the shell has not expanded them.
+/// Files of a pattern are sorted by name. A file with exactly the name of the pattern takes
+/// precedence. Test vectors, which this program writes next to a model, are not records.
 pub fn files(arguments: &[PathBuf]) -> Result<Files, Failure> {
     let mut files = Files::default();
     for argument in arguments {

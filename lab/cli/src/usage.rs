@@ -1,4 +1,4 @@
-//! Parsing of the arguments, and one line for a wrong argument.
+//! Parsing of the arguments, and the error line for a wrong argument.
 
 use super::{Arguments, Failure};
 use clap::{Command, CommandFactory as _, FromArgMatches as _};
@@ -24,8 +24,8 @@ fn printed(error: &clap::Error) -> Failure {
     }
 }
 
-/// The program's command. The number behind an option may be negative: it is then refused as a
-/// number, with what is needed in its place, and not as an option that does not exist.
+/// The program's command. The number after an option may be negative: it is then refused as a
+/// number, with the allowed values, and not as an unknown option.
 fn command() -> Command {
     let may_be_negative = |one: Command| {
         one.mut_args(|argument| match argument.get_action().takes_values() {
@@ -36,7 +36,7 @@ fn command() -> Command {
     Arguments::command().mut_subcommands(may_be_negative)
 }
 
-/// What the parser says over several lines, without the synopsis that follows it.
+/// The parser's message as one line, without the synopsis after it.
 fn one_line(text: &str) -> String {
     let lines = text.lines().map(str::trim);
     let said = lines.take_while(|line| {

@@ -1,6 +1,7 @@
 //! Fourier transforms in double precision, for records of any length.
 //!
-//! A crate of its own, because `rustfft` is generic: every crate that calls it compiles it again.
+//! This is a separate crate, because `rustfft` is generic: every crate that calls it compiles it
+//! again.
 
 use rustfft::{Fft, FftPlanner};
 use std::sync::Arc;

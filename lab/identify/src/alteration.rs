@@ -1,5 +1,5 @@
-//! Records that may have been logged differently: alterations that are undone in turn, and the bar
-//! that each must pass.
+//! Records that may have been logged differently: alterations that are undone in turn, and the
+//! condition that each must satisfy.
 
 use crate::record::{Column, Record};
 use serde::Serialize;
@@ -44,13 +44,13 @@ pub enum Alteration {
     },
 }
 
-/// An alteration that passed the bar.
+/// An alteration that satisfies the condition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Suspicion {
     /// The alteration.
     #[serde(flatten)]
     pub alteration: Alteration,
-    /// The file that it concerns; `None` if it concerns every file.
+    /// The affected file; `None` if every file is affected.
     pub path: Option<String>,
     /// The terms that the search finds once it is undone; none if there was no search.
     pub terms: Vec<String>,

@@ -17,11 +17,11 @@ use bowden::model::Source;
 pub enum Gate {
     /// The sign-flip test.
     P,
-    /// It did not help on enough blocks.
+    /// The effect reduced the error on too few blocks.
     Blocks,
-    /// It made the stop-check segment worse.
+    /// The effect raised the error on the selection segment.
     StopCheck,
-    /// It was added, and later additions made it redundant.
+    /// The effect was added, and later additions made it redundant.
     Superseded,
 }
 
@@ -38,13 +38,13 @@ impl Gate {
     }
 }
 
-/// How far a name can be trusted.
+/// The confidence in a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
-    /// Part of a model within the noise, on no bound, and without a rival.
+    /// The model is within the noise, no parameter is at a bound, and there is no alternative.
     High,
-    /// A candidate: one of these does not hold.
+    /// A candidate: one of these conditions does not hold.
     Low,
 }
 
@@ -55,13 +55,13 @@ pub struct Round {
     pub candidate: Candidate,
     /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub p: Option<f64>,
-    /// Effects that explain the same as well once fitted: the record cannot tell them apart.
+    /// Effects that explain the record equally well once fitted: the record cannot separate them.
     pub rivals: Vec<Candidate>,
-    /// Grade of the name.
+    /// Confidence in the name.
     pub grade: Grade,
     /// Share of the squared error that the refit removed.
     pub explained: f64,
-    /// Blocks of sixteen on which it helped.
+    /// Number of the sixteen blocks on which it lowered the error.
     pub blocks_better: usize,
     /// Errors before.
     pub before: Segments,
@@ -72,33 +72,34 @@ pub struct Round {
 }
 
 impl Round {
-    /// The effect as it was fitted in this round.
+    /// The effect as fitted in this round.
     #[must_use]
     pub fn term(&self) -> &FitTerm {
         let terms = &self.solution.structure.terms;
         terms.last().unwrap_or(&self.candidate.term)
     }
 
-    /// Every effect that may be the one in the rig: the named one, the one that is the same function
-    /// under another name, and the rivals.
+    /// Every effect that the rig may have: the named one, the one that is the same function under
+    /// another name, and the alternatives.
     pub fn possible(&self) -> impl Iterator<Item = Candidate> + '_ {
         let own = [Some(self.candidate), Candidate::twin(&self.candidate.term)];
         own.into_iter().flatten().chain(self.rivals.iter().copied())
     }
 }
 
-/// A candidate that was turned down.
+/// A rejected candidate.
 #[derive(Debug, Clone)]
 pub struct Rejection {
     /// Which.
     pub candidate: Candidate,
     /// By which gate.
     pub gate: Gate,
-    /// Its sign-flip p-value, where there was one.
+    /// Its sign-flip p-value, if there was one.
     pub p: Option<f64>,
 }
 
-/// Adds rejections of effects that the list does not have yet: of each the first one stands.
+/// Adds rejections of effects that the list does not contain yet; for each effect, the first one is
+/// kept.
 pub(crate) fn reject(list: &mut Vec<Rejection>, those: impl IntoIterator<Item = Rejection>) {
     for one in those {
         if !list.iter().any(|r| r.candidate.is_like(&one.candidate)) {
@@ -118,15 +119,15 @@ pub struct Description {
     pub error_ratio: f64,
 }
 
-/// The whole ledger.
+/// The results table of a search.
 #[derive(Debug, Clone)]
 pub struct Ledger {
     /// The baseline model, fitted.
     pub declared: Solution,
     /// What was added.
     pub rounds: Vec<Round>,
-    /// Rounds after these, without which the model does as well on left-out blocks: they are not
-    /// part of the delivered model.
+    /// Later rounds, without which the model is as good on left-out blocks: they are not part of
+    /// the delivered model.
     pub beyond: Vec<Round>,
     /// Candidates that were rejected.
     pub rejected: Vec<Rejection>,
@@ -142,17 +143,17 @@ pub struct Ledger {
     pub regime: Regime,
     /// Correlation time of the last residual \[s\].
     pub correlation_time: f64,
-    /// Whether the output follows the integral of the input: then no effect is sought.
+    /// Whether the output follows the integral of the input: there is then no search for effects.
     pub integrates: bool,
-    /// Files in which the output is another multiple of the input than in the others.
+    /// Files with another ratio of output to input than the others.
     pub apart: Vec<FileApart>,
-    /// Files that are not of one rig, where none of them is only another multiple.
+    /// Files that do not come from one rig, if the ratio alone does not explain the difference.
     pub rigs_apart: Option<RigsApart>,
     /// A suspected error in the logging of the records.
     pub suspicion: Option<Suspicion>,
-    /// Lead \[s\] of the output before the input, as a delay fitted to the last model says.
+    /// Lead \[s\] of the output over the input, from a delay fitted to the last model.
     pub lead: Option<f64>,
-    /// Channels whose steps matter to the final model.
+    /// Channels whose steps affect the final model.
     pub coarse: Vec<CoarseChannel>,
     /// The requested number of effects if it ended the search: further effects may be missing.
     /// `None` if the search ended by itself.
@@ -162,7 +163,7 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// The ledger of a baseline model before the search.
+    /// The results table of a baseline model before the search.
     #[must_use]
     pub fn of(declared: Solution) -> Self {
         Self {
@@ -192,7 +193,7 @@ impl Ledger {
         self.stopped_by_request.is_some() || self.stopped_by_budget.is_some()
     }
 
-    /// The mechanisms of what was added, in the order of the rounds.
+    /// The mechanisms of the added terms, in the order of the rounds.
     #[must_use]
     pub fn mechanisms(&self, data: &Prepared) -> Vec<Mechanism> {
         let terms = self
@@ -240,24 +241,24 @@ pub struct Share {
 pub struct Support {
     /// Which.
     pub mechanism: Mechanism,
-    /// The channel with which it removes most.
+    /// The channel with the largest share.
     pub source: Source,
-    /// What it removes by itself.
+    /// The share that it removes by itself.
     pub alone: Share,
-    /// What it removes beyond all others that are supported.
+    /// The share that it removes beyond all other supported mechanisms.
     pub beyond: Share,
     /// Whether, together with those found before it, it leaves at most half of the squared error that
     /// any other mechanism leaves.
     pub is_clear: bool,
-    /// Other mechanisms that leave less than twice as much in its place.
+    /// Other mechanisms that, instead of it, leave less than twice as much squared error.
     pub alternatives: Vec<Mechanism>,
-    /// What it is a function of.
+    /// The variable of its function.
     pub variable: Variable,
-    /// That function: its means over the variable, with what all mechanisms leave.
+    /// Its function: means over the variable, including the residual of all mechanisms.
     pub curve: Vec<Bin>,
 }
 
-/// The mechanisms that a record supports, and what they leave.
+/// The mechanisms that a record supports, and their residual error.
 #[derive(Debug, Clone)]
 pub struct Supported {
     /// In the order in which they were found.
@@ -266,30 +267,30 @@ pub struct Supported {
     pub error: f64,
 }
 
-/// A file whose output is a multiple of what the gains of another one say.
+/// A file whose output is a multiple of the output with another file's gains.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct FileApart {
     /// The file.
     pub path: String,
     /// The file whose gains it is compared with.
     pub than: String,
-    /// By what the output of those gains is to be multiplied.
+    /// The factor on the output with those gains.
     pub gain: f64,
-    /// What is to be added to it, in the output's unit.
+    /// The offset to add, in the output's unit.
     pub offset: f64,
     /// The error of those gains on the file, as a share of its output's standard deviation.
     pub before: f64,
-    /// The same with gain and offset.
+    /// The same error with gain and offset.
     pub after: f64,
 }
 
-/// What gains of its own for each file make of files that are not of one rig.
+/// The effect of separate gains on files that do not come from one rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigsApart {
     /// The error of the delivered model on the fit segment, as a share of the output's standard
     /// deviation there.
     pub together: f64,
-    /// The same of the baseline model with gains of its own for each file.
+    /// The same error of the baseline model with separate gains for each file.
     pub own: f64,
 }
 
@@ -302,9 +303,9 @@ pub struct CoarseChannel {
     pub step: f64,
     /// Its range, in steps.
     pub counts: f64,
-    /// What the steps do to the model: rms of its output on the fit segment.
+    /// The rms change of the model's output by the steps, on the fit segment.
     pub error: f64,
-    /// The names that the steps may account for.
+    /// The terms that the steps may explain.
     pub names: Vec<String>,
 }
 

@@ -5,23 +5,23 @@
 //! | room | what happens there |
 //! |---|---|
 //! | `algebra` | the linear algebra of all others: spans, systems, directions |
-//! | [`record`] | a file is read and checked, its defects are named: the crate `bowden-record` |
+//! | [`record`] | reading and checking of a file, and its defects: the crate `bowden-record` |
 //! | [`alteration`] | how a record may have been logged differently |
 //! | [`problem`] | uniform time, one zero-phase smoother for all columns and the output, the split |
 //! | [`model`] | effects that may be missing, terms and their parameters, their columns |
 //! | [`fit`] | variable projection: gains by QR, shapes by Levenberg-Marquardt |
-//! | [`score`] | what a residual says: blocks and their exact test, free curves, lines, whiteness |
-//! | [`ledger`] | rounds, rejections, what has no name |
-//! | [`search`] | which effects are missing: the search that fills the ledger |
+//! | [`score`] | tests of a residual: blocks and their exact test, free curves, lines, whiteness |
+//! | [`ledger`] | the results table: rounds, rejections, unmodelled dependences |
+//! | [`search`] | which effects are missing: the search that fills the results table |
 //! | [`conclude`] | final refit, intervals, verdict, shares, traces |
 //! | [`foresight`] | what the record would have missed, and which motion to record next |
-//! | [`export`] | what is handed over to firmware |
+//! | [`export`] | the exported model for firmware |
 //! | [`check`] | whether a model still holds on another record |
 //! | [`facts`] | the answer to each question of the program, as plain data |
 //!
-//! Every column of the regression is computed by the core crate, so that what is fitted here
-//! is what runs in firmware. The package `bowden-synth` makes test records and shares no
-//! code with any of these.
+//! Every column of the regression is computed by the core crate, so the fitted functions are those
+//! that run in firmware. The package `bowden-synth` makes test records and shares no code with any
+//! of these.
 
 pub(crate) mod algebra;
 pub mod alteration;

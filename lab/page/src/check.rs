@@ -15,7 +15,7 @@ pub struct Check<'a> {
     pub record: &'a str,
     /// The result.
     pub facts: &'a CheckFacts,
-    /// Signals and what the residuals say.
+    /// The signals and the tests of the residuals.
     pub figures: &'a Figures,
 }
 

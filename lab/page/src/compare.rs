@@ -13,7 +13,7 @@ pub struct Compare<'a> {
     pub compared: &'a [Compared],
 }
 
-/// The lines of one comparison, and what is said of them.
+/// The lines of one comparison, and the remarks on them.
 struct Part<'a> {
     compared: &'a Compared,
     lines: Vec<Line>,
@@ -167,7 +167,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// The axis of all errors but those of laws that ran away.
+    /// The axis of all errors but those of laws that diverged.
     fn error_axis(&self, until: f64, from: f64) -> Axis {
         let good = self.lines.iter().filter(|line| line.ran_away.is_none());
         let rows = good.flat_map(|line| &line.first.trace);
@@ -178,7 +178,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// The axis of a torque, as far as the laws that did not run away need it.
+    /// The axis of a torque, as far as the laws that did not diverge need it.
     fn torque_axis(&self, until: f64, of: fn(&Row) -> [f64; 2]) -> Axis {
         let good = self.lines.iter().filter(|line| line.ran_away.is_none());
         let rows = good.flat_map(|line| &line.first.trace);

@@ -3,11 +3,11 @@
 use bowden_lab::facts::Source;
 use maud::{html, Markup, PreEscaped};
 
-/// The colours and lines of figures, on a page and in a file of their own.
+/// The colours and lines of figures, on a page and in a separate file.
 pub const STYLE_OF_A_FIGURE: &str = include_str!("style_of_a_figure.css");
 const STYLE_OF_A_PAGE: &str = include_str!("style_of_a_page.css");
 
-/// How a page was obtained.
+/// The origin of a page.
 #[derive(Debug, Clone)]
 pub struct Provenance {
     /// The command line.
@@ -25,7 +25,7 @@ pub(crate) struct Section {
     pub(crate) body: Markup,
 }
 
-/// What stands at the head of a page.
+/// The opening of a page.
 pub(crate) struct Opening<'a> {
     /// The question and the record.
     pub(crate) title: String,
@@ -37,7 +37,7 @@ pub(crate) struct Opening<'a> {
     pub(crate) body: Markup,
 }
 
-/// A number for people with its value for programs.
+/// A formatted number with its exact value for programs.
 pub(crate) fn data(value: f64, shown: &str) -> Markup {
     html! { data value=(value) { (shown) } }
 }
@@ -64,7 +64,7 @@ pub(crate) fn table(
     }
 }
 
-/// A bar for a share, which the number beside it states.
+/// A bar for a share that is also written as a number.
 pub(crate) fn share_bar(share: f64) -> Markup {
     let width = format!("{:.1}%", 100.0 * share.clamp(0.0, 1.0));
     html! {

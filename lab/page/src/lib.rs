@@ -1,10 +1,10 @@
 //! The results of `bowden` as one HTML page, and individual figures as SVG.
 //!
-//! A page is a view: it reads [`bowden_lab::facts`] and [`bowden_trials::facts`] and computes no
-//! figure. It is complete in itself (styles and figures are inline, nothing is loaded, no script
-//! runs), follows the reader's colour scheme, prints, and reads by keyboard and screen reader.
-//! Numbers stand in `data` elements whose `value` is the number of the JSON, digit by digit.
-//! The same facts give the same bytes.
+//! A page is a view: it reads [`bowden_lab::facts`] and [`bowden_trials::facts`] and computes
+//! nothing. A page is self-contained (styles and figures are inline, nothing is loaded, no script
+//! runs), follows the reader's colour scheme, can be printed, and works with a keyboard and a
+//! screen reader. Numbers are `data` elements whose `value` is the number in the JSON, digit by
+//! digit. The same facts give the same bytes.
 
 mod chart;
 mod check;
@@ -20,7 +20,7 @@ pub use document::Provenance;
 
 use bowden_lab::facts::Figures;
 
-/// A figure that can be had alone.
+/// A figure that can be drawn individually.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Figure {
     /// Output over input.
@@ -33,7 +33,7 @@ pub enum Figure {
     Shares,
 }
 
-/// One figure as an SVG file; of several records the first one's.
+/// One figure as an SVG file; with several records, that of the first one.
 #[must_use]
 pub fn figure(figures: &Figures, figure: Figure) -> String {
     let signals = &figures.signals;

@@ -12,8 +12,8 @@ pub fn is_same_unit(one: &str, other: &str) -> bool {
 /// Brings all records to the channels and the units of the first one.
 ///
 /// # Errors
-/// One line with file and column if a mode, a channel or a unit differs, or if two files contain
-/// the same samples: counted twice, they would look like two experiments that agree.
+/// A message with file and column if a mode, a channel or a unit differs, or if two files contain
+/// the same samples. Counted twice, these samples would look like two experiments that agree.
 pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
     let Some((first, others)) = records.split_first_mut() else {
         return Ok(());
@@ -85,7 +85,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     Ok(())
 }
 
-/// Converts a column to the unit of `whence`; returns a note if this changes its values.
+/// Converts a column to the unit of `whence`, and returns a note if this changes its values.
 ///
 /// # Errors
 /// One line with file and column if the column has no unit, or a unit of another kind.

@@ -1,4 +1,4 @@
-//! Angles in radians, whatever unit the file has: gravity is sin q and a ripple cos(k·q).
+//! Angles in radians, for any unit in the file: gravity is sin q and a ripple cos(k·q).
 
 use super::sizes::factor;
 use super::{Column, Mode};
@@ -12,7 +12,7 @@ pub(super) fn is_angle(unit: &str) -> bool {
 }
 
 /// Converts channels, and an input that is a displacement, from another unit of angle to radians;
-/// returns a note. The output stays as it is, because no effect is a function of it.
+/// returns a note. The output is unchanged, because no effect is a function of it.
 pub(super) fn in_radians(mode: Mode, input: &mut Column, channels: &mut [Column]) -> Vec<String> {
     let input = Some(input).filter(|_| mode == Mode::Displacement);
     let all = input.into_iter().chain(channels);

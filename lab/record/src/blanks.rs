@@ -1,9 +1,10 @@
 //! Text whose columns are separated by blanks, as `numpy.savetxt`, MATLAB's `save -ascii` and
 //! gnuplot write it.
 //!
-//! Its rows identify it: blanks separate the numbers, and the rows contain no tab, `;` or `,`. Such
-//! a text is read as one with tabs. Its names may contain blanks: a unit in brackets belongs to the
-//! name before it, and if that does not give a name for each column, two blanks separate names.
+//! The rows identify such a text: blanks separate the numbers, and the rows contain no tab, `;` or
+//! `,`. The text is then read as if it had tabs. Names may contain blanks: a unit in brackets
+//! belongs to the name before it. If this does not result in one name for each column, two blanks
+//! separate the names.
 
 use super::layout::{HEAD, HEAD_BYTES, TABLE};
 use super::number::is_data;
@@ -92,7 +93,7 @@ fn push<'a>(all: &mut String, cells: impl Iterator<Item = &'a str>) {
     }
 }
 
-/// A line as so many names, `Time (s)   Force (N)`.
+/// A line as the given number of names, `Time (s) Force (N)`.
 fn names(line: &str, width: usize) -> Option<Vec<String>> {
     let line = line.trim().trim_start_matches(['#', '%']).trim_start();
     let mut single: Vec<String> = Vec::new();

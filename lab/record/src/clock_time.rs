@@ -5,8 +5,8 @@
 /// double has 0.1 µs left.
 const EPOCH: i64 = 730_000;
 
-/// Seconds of a stamp, from midnight or, with a date, from a day that is the same for all;
-/// `None` where it is none. Years come first or, with points, last: `1/2/2026` is two different days.
+/// Seconds of a time stamp, from midnight or, with a date, from a fixed day; `None` if it is not a
+/// time stamp. The year comes first or, with points, last: `1/2/2026` may mean two different days.
 pub(super) fn seconds(cell: &str) -> Option<f64> {
     let (date, time) = match cell.find([' ', 'T']) {
         Some(at) => (Some(&cell[..at]), cell[at + 1..].trim_start()),
@@ -131,7 +131,7 @@ fn days(date: &str) -> Option<i64> {
     Some(365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - EPOCH)
 }
 
-/// Days of a month; `None` where there is no such month.
+/// Days of a month; `None` if there is no such month.
 fn length(year: i64, month: i64) -> Option<i64> {
     let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
     match month {

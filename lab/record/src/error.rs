@@ -4,9 +4,9 @@ use std::fmt;
 
 /// Why a record was rejected: ``FILE:LINE: column `NAME`: message``.
 ///
-/// Line and column are left out if the fault has none (a missing file).
-/// The text is always one line: control characters in names, in the path or
-/// in the offending cell are escaped, long ones are shortened.
+/// Line and column are omitted if the fault has none (a missing file). The text is always one line:
+/// control characters in names, in the path or in the faulty cell are escaped, and long texts are
+/// shortened.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordError {
     file: String,
@@ -23,7 +23,7 @@ pub(super) enum Bad {
     Empty,
     /// A NaN.
     NotANumber,
-    /// The time stamp of the row before.
+    /// The time stamp of the previous row.
     Repeated,
 }
 
@@ -82,7 +82,7 @@ impl RecordError {
         &self.file
     }
 
-    /// Line in the file, from 1; of a binary file the row.
+    /// Line in the file, from 1; for a binary file, the row.
     pub fn line(&self) -> Option<usize> {
         self.line
     }

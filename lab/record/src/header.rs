@@ -118,8 +118,8 @@ impl Header {
         Self::with(line, names.iter().map(|name| of_cell(name)).collect())
     }
 
-    /// Takes the unit that an option states after a column's name, as in `--time 'ms [ms]'`; what
-    /// is to be said of it. A column of that whole name comes first.
+    /// Takes the unit that an option states after a column's name, as in `--time 'ms [ms]'`;
+    /// returns a note. A column with the whole name takes precedence.
     pub(super) fn take_unit(&mut self, option: &str, text: &str) -> Option<String> {
         if self.find(text).is_some() {
             return None;
@@ -247,7 +247,7 @@ pub(super) fn require(header: &Header, name: &str, hint: &str) -> Result<usize, 
     header.find(name).ok_or_else(|| missing(header, name, hint))
 }
 
-/// At most three names that are much like one that does not exist, in brackets, for a message.
+/// At most three names that are similar to one that does not exist, in brackets, for a message.
 #[must_use]
 pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let wanted = name.trim().to_lowercase();
@@ -275,7 +275,7 @@ pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
     RecordError::at(header.line, message).on(name)
 }
 
-/// Rejects a name that two columns have, if `counts` says that one of them is needed.
+/// Rejects a name that two columns have, if `counts` selects one of them.
 pub(super) fn twice(header: &Header, counts: impl Fn(usize) -> bool) -> Result<(), RecordError> {
     let mut seen = std::collections::HashMap::new();
     let columns = header.columns.iter().enumerate();

@@ -1,8 +1,8 @@
-//! A column that changes in every k-th row only: a slower sensor, sampled and held by the log.
+//! A column that changes only in every k-th row: a slower sensor, sampled and held by the logger.
 //!
-//! As recorded it lags by half of its own step, which a search would identify as a delay, a lag or
-//! friction. Its updates are true samples; a curve through them replaces the staircase. The steps
-//! of a converter look similar during uniform motion, but then all steps are one count.
+//! The recorded column lags by half of its own step, which a search would identify as a delay, a
+//! lag or friction. Its updates are true samples; a curve through them replaces the staircase. The
+//! steps of a converter look similar during uniform motion, but then all steps are one count.
 
 /// Shortest period of the updates [rows].
 const SHORTEST: f64 = 4.0;
@@ -71,7 +71,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
     ))
 }
 
-/// The period of the updates [rows]; `None` where they have none.
+/// The period of the updates [rows]; `None` if they have none.
 fn period(edges: &[usize]) -> Option<f64> {
     let mut gaps: Vec<usize> = edges.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if gaps.len() < FEWEST {

@@ -1,4 +1,4 @@
-//! The rows that were kept, and which of them stay.
+//! The rows of the file that the record keeps.
 
 use super::error::{shown, NAME_LENGTH};
 use super::header::Header;

@@ -8,7 +8,7 @@ pub(super) enum Kind {
     Text,
     Gzip,
     Mat,
-    /// Of version 7.3, which is HDF5.
+    /// A MAT-file of version 7.3, which is HDF5.
     MatHdf5,
     Parquet,
     /// A zip archive of NumPy's arrays.
@@ -80,7 +80,7 @@ const BEHIND_HEADER: usize = 512;
 /// The form of a file.
 ///
 /// # Errors
-/// One sentence that names a form that is not read, and what to do instead.
+/// A message with the unsupported format, and what to do instead.
 pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     let refuse = |what: &str, instead: &str| {
         let message = format!("is {what}, which bowden does not read; {instead}");

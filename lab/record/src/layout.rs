@@ -1,9 +1,9 @@
 //! The position of the table in a text: preamble, names, units, values.
 //!
-//! A file whose first line contains the requested names is read as it is. Otherwise the beginning
-//! of the file is searched for rows of numbers, and the rows above them for those names. Lines
-//! above the names are a preamble; a line between names and numbers is a row of units. Nothing else
-//! is guessed; if the names are not found, the first line is rejected as a header.
+//! A file whose first line contains the requested names is read from the first line. Otherwise the
+//! beginning of the file is searched for rows of numbers, and the rows above them for those names.
+//! Lines above the names are a preamble; a line between names and numbers is a row of units.
+//! Nothing else is guessed; if the names are not found, the first line is rejected as a header.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{self, Header};
@@ -23,7 +23,7 @@ const ABOVE: usize = 8;
 
 /// A table whose columns have roles; the rows are those below names and units.
 pub(super) struct Table<'a> {
-    /// The line of the names as it is; empty where they are given.
+    /// The unchanged line of the names; empty if the names are given.
     pub(super) names: &'a str,
     /// The text below it.
     pub(super) below_names: &'a str,
@@ -42,7 +42,7 @@ pub(super) fn has_table(text: &str) -> bool {
     Head::new(text, b'\t').tables().next().is_some()
 }
 
-/// Finds a table of numbers, whatever the names of its columns; every column has a role.
+/// Finds a table of numbers with any column names; every column has a role.
 pub(super) fn any<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, RecordError> {
     let assign = roles::of_any;
     if !options.names.is_empty() {

@@ -2,9 +2,9 @@
 //! columns.
 //!
 //! A record consists of a time axis, the transmission's input and output, and optional channels.
-//! Nothing is repaired silently: [`Record::notes`] lists what the reader did (a unit converted, a
-//! column ignored), and an unreadable record is refused with one line that names file, line and
-//! column.
+//! Nothing is repaired silently: [`Record::notes`] lists every change by the reader (a converted
+//! unit, an ignored column), and an unreadable record is refused with one line that names file,
+//! line and column.
 //!
 //! ```
 //! use bowden_record::{parse, Options};
@@ -110,24 +110,24 @@ pub const MIN_SAMPLES: usize = 200;
 /// cuts nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// The mode; from the columns where it is `None`.
+    /// The mode; `None` derives it from the columns.
     pub mode: Option<Mode>,
-    /// Column of the time, `t` where it is `None`.
+    /// Column of the time; default: `t`.
     pub time: Option<String>,
-    /// Column of the input, `tau_i` or `x` where it is `None`.
+    /// Column of the input; default: `tau_i` or `x`.
     pub input: Option<String>,
-    /// Column of the output, `tau_o` or `f` where it is `None`.
+    /// Column of the output; default: `tau_o` or `f`.
     pub output: Option<String>,
     /// Further channels besides the default ones, as (name of the channel, column); `A-B` and `A+B`
     /// are the difference and the sum of two columns.
     pub channels: Vec<(String, String)>,
-    /// Seconds to leave out at the start, counted from the first time stamp.
+    /// Start \[s\], counted from the first time stamp.
     pub skip: f64,
     /// End \[s\], counted from the first time stamp.
     pub until: Option<f64>,
     /// Sampling rate \[Hz\]; the time column is then not read.
     pub rate: Option<f64>,
-    /// Line of the column names, from 1; found where it is `None`.
+    /// Line of the column names, from 1; default: detected.
     pub header_line: Option<usize>,
     /// Segment to read, from 1, of a text in which the column names are repeated; if `None`, all of
     /// them as one record.
@@ -137,7 +137,7 @@ pub struct Options {
     pub names: Vec<String>,
     /// Sheet of an Excel workbook; if `None`, the first one with a table.
     pub sheet: Option<String>,
-    /// Leave out rows with an empty cell, a NaN or the time stamp of the row before, instead of
+    /// Omit rows with an empty cell, a NaN or the time stamp of the previous row, instead of
     /// refusing the record.
     pub drop_bad: bool,
 }
@@ -147,11 +147,11 @@ pub struct Options {
 pub struct Column {
     /// The channel's name (`phi_d`), or the file's own for input and output.
     pub name: String,
-    /// The unit in the header, if it states one; `rad` where an angle was converted.
+    /// The unit in the header, if it states one; `rad` if an angle was converted.
     pub unit: Option<String>,
     /// One finite value per sample.
     pub values: Vec<f64>,
-    /// How it is computed from columns, `phi_p + phi_d`, if it is not a column itself.
+    /// Its definition from columns, such as `phi_p + phi_d`, if it is not a column itself.
     pub definition: Option<String>,
 }
 
@@ -170,14 +170,14 @@ pub struct Record {
     pub output: Column,
     /// The other measured channels that are used.
     pub channels: Vec<Column>,
-    /// Notes on what the reader did.
+    /// Notes of the reader.
     pub notes: Vec<String>,
     /// Defects of the measurement.
     pub defects: Vec<Defect>,
-    /// Rows that were left out on request ([`Options::drop_bad`]).
+    /// Rows that were omitted on request ([`Options::drop_bad`]).
     pub dropped: usize,
-    /// Columns that were sampled and held by the log: a curve replaces their stairs and removes
-    /// their noise.
+    /// Columns that the logger sampled and held: a curve replaces their steps and removes their
+    /// noise.
     pub held: Vec<String>,
 }
 
@@ -201,17 +201,16 @@ impl Record {
 /// Reads a record from a file.
 ///
 /// # Errors
-/// One line that names file, line and column: see [`RecordError`].
+/// A message with file, line and column: see [`RecordError`].
 pub fn read(path: &Path, options: &Options) -> Result<Record, RecordError> {
     let label = path.display().to_string();
     parse(&load(path)?, &label, options)
 }
 
-/// The bytes of a file, for [`parse`]; only the first ones if the form is recognised as
-/// unsupported.
+/// The bytes of a file, for [`parse`]; only the first bytes if the format is not supported.
 ///
 /// # Errors
-/// One line that names the file: see [`RecordError`].
+/// A message with the file: see [`RecordError`].
 pub fn load(path: &Path) -> Result<Vec<u8>, RecordError> {
     file::load(path, &path.display().to_string())
 }
@@ -219,7 +218,7 @@ pub fn load(path: &Path) -> Result<Vec<u8>, RecordError> {
 /// Reads a record from bytes in memory; `label` is used instead of the file's name.
 ///
 /// # Errors
-/// One line that names file, line and column: see [`RecordError`].
+/// A message with file, line and column: see [`RecordError`].
 pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, RecordError> {
     parse_lines(bytes, options)
         .map_err(|error| error.in_file(label))
@@ -229,13 +228,13 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
         })
 }
 
-/// Reads a record from columns in memory, as from a file that holds columns of numbers;
-/// `label` is used instead of the file's name.
+/// Reads a record from columns in memory, like a file that contains columns of numbers; `label` is
+/// used instead of the file's name.
 ///
 /// The name of a column may contain its unit, as in the header of a text (`tau_i [N·m]`).
 ///
 /// # Errors
-/// One line that names label, row (from 1) and column: see [`RecordError`].
+/// A message with label, row (from 1) and column: see [`RecordError`].
 ///
 /// ```
 /// use bowden_record::{of_columns, parse, Column, Options};

@@ -1,8 +1,8 @@
 //! NumPy's `.npz`, a zip archive with one array per file, and `.npy`, one array.
 //!
-//! Sources: PKWARE, *APPNOTE.TXT*; NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of
-//! numbers is a vector, or a matrix whose columns an array of as many texts names; the fields of a
-//! structured array are vectors. Every length is checked against the bytes that there are.
+//! Sources: PKWARE, *APPNOTE.TXT*; NumPy, *NEP 1: a simple file format for NumPy arrays*. An array
+//! of numbers is a vector, or a matrix whose columns are named by an array of as many texts. The
+//! fields of a structured array are vectors. Every length is checked against the number of bytes.
 
 use super::file::LIMIT;
 use super::vectors::{Value, MOST_COLUMNS};
@@ -135,7 +135,7 @@ fn array(file: &[u8]) -> Result<Value, Damage> {
 /// What an array is.
 struct Header {
     shape: Vec<usize>,
-    /// The types of a cell; none where one is not known.
+    /// The types of a cell; none if one is not known.
     fields: Vec<(String, Kind)>,
     by_column: bool,
     /// Where the cells begin.
@@ -244,7 +244,7 @@ struct Kind {
     is_big: bool,
 }
 
-/// The types of an array's cells: one without a name, or those of its fields; none where one is not
+/// The types of an array's cells: one without a name, or those of its fields; none if one is not
 /// known.
 fn fields(kind: &str) -> Vec<(String, Kind)> {
     let own = match kind.strip_prefix('[') {
@@ -286,7 +286,7 @@ impl Kind {
         })
     }
 
-    /// The number in a cell; `None` where the type is none of numbers.
+    /// The number in a cell; `None` if the type is not numeric.
     fn number(&self, cell: &[u8]) -> Option<f64> {
         let mut bytes = [0; 8];
         for (to, from) in bytes.iter_mut().zip(cell) {

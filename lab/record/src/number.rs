@@ -1,4 +1,4 @@
-//! One cell, one number.
+//! The number in a cell.
 
 use super::error::{shown, Bad, RecordError};
 use super::thousands::Thousands;
@@ -219,7 +219,7 @@ fn measured(value: f64, text: &str, line: usize, column: &str) -> Result<f64, Re
     Err(RecordError::at(line, message).on(column))
 }
 
-/// A value that was stored as a number; `None` where the file has none.
+/// A value that was stored as a number; `None` if the file has none.
 pub(super) fn stored(value: Option<f64>, row: usize, column: &str) -> Result<f64, RecordError> {
     match value {
         None => refuse("", None, row, column),

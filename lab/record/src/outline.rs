@@ -1,7 +1,7 @@
 //! The contents of a file before every column has a role: names, units, and values as they are.
 //!
-//! A view shows it to somebody who then chooses the columns. Nothing is refused here that can be
-//! shown: a cell without a number is NaN.
+//! A view shows these contents to a user who then chooses the columns. A cell without a number is
+//! NaN and not refused.
 
 use super::encoding::Decoded;
 use super::error::RecordError;
@@ -17,7 +17,7 @@ use super::{blanks, clock_time, encoding, gzip, json, sheet, Mode, Options};
 /// The columns of a file.
 #[derive(Clone, Debug)]
 pub struct Outline {
-    /// Line of the column names, from 1; 0 of a file without lines.
+    /// Line of the column names, from 1; 0 for a file without lines.
     pub line: usize,
     /// The mode, if the columns determine it.
     pub mode: Option<Mode>,
@@ -25,14 +25,14 @@ pub struct Outline {
     pub columns: Vec<Outlined>,
 }
 
-/// A column as it is in the file.
+/// A column of the file.
 #[derive(Clone, Debug)]
 pub struct Outlined {
     /// Its name.
     pub name: String,
     /// Its unit, if the file states one.
     pub unit: Option<String>,
-    /// Its part, if its name or an option tells it.
+    /// Its role, if its name or an option determines it.
     pub part: Option<Part>,
     /// One value per row; NaN if the cell is not a number.
     pub values: Vec<f64>,
@@ -47,7 +47,7 @@ pub struct Line {
     pub cells: Vec<String>,
 }
 
-/// The columns of a file that is in memory, before the columns have their parts.
+/// The columns of a file in memory, before they have roles.
 ///
 /// # Errors
 /// The error for a file without a table, without the name of the file.
@@ -61,8 +61,8 @@ pub fn outline(bytes: &[u8], options: &Options) -> Result<Outline, RecordError> 
     }
 }
 
-/// The lines of a text next to one of its lines, at most `around` on each side; empty of a file
-/// that is no text.
+/// The lines of a text next to one of its lines, at most `around` on each side; empty for a file
+/// that is not text.
 #[must_use]
 pub fn excerpt(bytes: &[u8], line: usize, around: usize, options: &Options) -> Vec<Line> {
     let unpacked = match kind::of(bytes) {

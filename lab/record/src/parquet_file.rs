@@ -62,7 +62,7 @@ impl File {
         (0..self.places.len()).map(name).collect()
     }
 
-    /// The values of a column; `None` where it has none.
+    /// The values of a column; `None` if it has none.
     pub(super) fn read(&self, column: usize) -> Result<Vec<Option<f64>>, RecordError> {
         let descriptor = self.descriptor(column);
         let name = descriptor.path().string();

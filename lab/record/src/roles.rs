@@ -5,7 +5,7 @@ use super::header::{missing, require, twice, Header};
 use super::series::{self, Series};
 use super::{units, Mode, Options};
 
-/// The part of a column.
+/// The role of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The time.
@@ -21,7 +21,7 @@ pub enum Part {
 /// Indices into the header's columns.
 pub(super) struct Roles {
     pub(super) mode: Mode,
-    /// `None` where the time comes from the row number.
+    /// `None` if the time comes from the row number.
     pub(super) time: Option<usize>,
     pub(super) input: usize,
     pub(super) output: usize,
@@ -207,7 +207,7 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
     Ok(roles)
 }
 
-/// Usual names of the time, the first of which counts.
+/// Usual names of the time; the first one that exists is used.
 const TIMES: [&str; 3] = ["t", "time", "timestamp"];
 
 /// The column of the time. `T` without a unit may as well be a temperature.

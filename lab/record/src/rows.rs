@@ -78,17 +78,17 @@ struct Reader<'a> {
     header: &'a Header,
     series: Vec<(usize, Option<(usize, f64)>)>,
     drop_bad: bool,
-    /// Whether the rows have stamps, of which input and output may each have their own.
+    /// Whether the rows have time stamps; input and output may have separate ones.
     has_stamps: bool,
     /// One more than the last column that is read.
     width: usize,
-    /// Cells of the first row, where it lacks columns that are not read.
+    /// Number of cells in the first row, if it lacks columns that are not read.
     short: Option<usize>,
     /// Rows kept so far.
     kept: usize,
     lacking: Lacking,
-    /// The refusal of the first stamp before an earlier one, which input and output may have if each
-    /// has stamps of its own.
+    /// The error for the first time stamp before an earlier one, which is allowed if input and
+    /// output have separate time stamps.
     backwards: Option<RecordError>,
     /// Rows of several lines.
     carried: usize,
@@ -362,7 +362,7 @@ pub(super) fn read(
     })
 }
 
-/// The unit that the time had, where it was converted.
+/// The original unit of the time, if it was converted.
 fn unit_of_time(header: &Header, roles: &Roles) -> Option<String> {
     let unit = header.columns[roles.time?].unit.as_deref()?;
     (!unit.contains(':') && unit != "s").then(|| format!("time converted from {unit} to s"))

@@ -1,7 +1,7 @@
 //! A table whose names are repeated: the blocks of a load frame, the segments of LabVIEW, a logger
 //! that was started again.
 //!
-//! Below the same names, and the same units where there are any, the rows continue. They are one
+//! The rows continue below the same names, and the same units if there are any. They form one
 //! record if the time continues too; otherwise `--segment N` selects one of the segments. Text
 //! above the names of a segment is skipped like a preamble.
 

@@ -30,7 +30,7 @@ impl Series {
         [Some(first), second].into_iter().flatten()
     }
 
-    /// The columns that are added or subtracted; none where it is a column itself.
+    /// The columns that are added or subtracted; none if it is a column itself.
     pub(super) fn parts(self) -> impl Iterator<Item = usize> {
         let sum = matches!(self, Self::Sum { .. });
         self.columns().filter(move |_| sum)

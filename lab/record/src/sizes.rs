@@ -1,4 +1,4 @@
-//! Units of known size, and how they are written.
+//! Units of known size, and their spellings.
 
 use std::f64::consts::{PI, TAU};
 
@@ -178,8 +178,8 @@ const PREFIXES: [(&str, &str); 6] = [
     ("nano", "n"),
 ];
 
-/// The sign of a unit that is spelt out (`Kilonewtons`) or in other letters (`KN`). `None` where
-/// it is none, where it may be two (`NM`), and where a capital would change its size (`MV`).
+/// The symbol of a unit that is spelt out (`Kilonewtons`) or in other letters (`KN`). `None` if it
+/// is not a unit, if it is ambiguous (`NM`), or if a capital would change its size (`MV`).
 fn spelt(unit: &str) -> Option<String> {
     // An abbreviation: `sec.`, `in.`
     let unit = unit.strip_suffix('.').unwrap_or(unit);
@@ -229,9 +229,9 @@ fn in_other_letters(unit: &str, lower: &str) -> Option<String> {
     }
 }
 
-/// A unit as it is written here: `N·mm` for `N*mm`, `N-mm`, `N.mm` and `N mm`, and the signs of
-/// units that are spelt out or in other letters, `kN/mm` for `KN/millimetre`. What is none of known
-/// size stays as it is.
+/// The standard spelling of a unit: `N·mm` for `N*mm`, `N-mm`, `N.mm` and `N mm`, and symbols for
+/// units that are spelt out or in other letters, `kN/mm` for `KN/millimetre`. An unknown unit is
+/// unchanged.
 pub(super) fn written(unit: &str) -> String {
     // The Greek letter instead of the sign.
     let unit = unit.replace('μ', "µ");
@@ -249,7 +249,7 @@ pub(super) fn written(unit: &str) -> String {
     spelt(&unit).or_else(|| product(&unit)).unwrap_or(unit)
 }
 
-/// A unit with `·` between its factors, where that is one of known size.
+/// A unit with `·` between its factors, if it is one of known size.
 fn product(unit: &str) -> Option<String> {
     let factors: Vec<&str> = unit.split(BETWEEN).filter(|own| !own.is_empty()).collect();
     if unit.starts_with(BETWEEN) || unit.ends_with(BETWEEN) || factors.len() < 2 {
@@ -266,7 +266,7 @@ fn product(unit: &str) -> Option<String> {
     spelt(&whole).or_else(|| is_known(&signs).then_some(signs))
 }
 
-/// Whether the size of a unit is known, as it is written here.
+/// Whether the size of a unit in standard spelling is known.
 pub(super) fn is_known(unit: &str) -> bool {
     SIZES
         .iter()

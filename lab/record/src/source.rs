@@ -51,8 +51,7 @@ impl Source<'_> {
         }
     }
 
-    /// How many lines of text alone there are from the last row on; `None` where a row of
-    /// numbers is among them.
+    /// Number of lines with only text after the last row; `None` if a row of numbers is among them.
     pub(super) fn text_below(&self, used: &[usize]) -> Option<usize> {
         let rows = match self {
             Self::Text(rows) if !rows.has_more() => rows,
@@ -120,7 +119,7 @@ impl Row<'_> {
         is_marked && row.last == row.line && !is_error() && !is_row()
     }
 
-    /// The segment that it begins, where it is not the first.
+    /// The segment that it begins, if it is not the first.
     pub(super) fn opens(&self) -> Option<Place> {
         match self {
             Self::Text(row) => row.opens,

@@ -1,10 +1,10 @@
 //! Channels of a slower sensor with numbers in only a few rows (a temperature once per second in a
 //! 500 Hz log), and sensors with separate time stamps in one table.
 //!
-//! A channel with a number in fewer than half of the rows is a line through its readings. In other
-//! channels, and in the input and the output, a missing number is a fault of the record. Exception:
-//! if input and output have most of their readings in rows in which the other has none, or if one
-//! of them has few readings, all columns are lines.
+//! A channel with a number in fewer than half of the rows is replaced by lines between its
+//! readings. In other channels, and in the input and the output, a missing number is a fault of the
+//! record. There is one exception: if input and output have most of their readings in different
+//! rows, or if one of them has few readings, all columns are replaced by lines.
 
 use super::error::{Bad, RecordError};
 use super::header::Header;
@@ -50,7 +50,7 @@ impl Lacking {
         (2..lack.len()).filter(|&k| 2 * lack[k] > rows).collect()
     }
 
-    /// The rows of so many in which a column has a number.
+    /// The rows, among the given number, in which a column has a number.
     fn readings(&self, column: usize, rows: usize) -> Vec<usize> {
         let mut has = vec![true; rows];
         let own = self.cells.iter().filter(|(_, k, _)| *k == column);
@@ -72,7 +72,7 @@ impl Lacking {
         2 * together < fewest || !drop_bad && 2 * fewest < rows && together > 0
     }
 
-    /// The first cell that is no sparse channel's, in so many rows.
+    /// The first empty cell of a column that is not sparse, among the given number of rows.
     pub(super) fn fault(&self, rows: usize) -> Option<RecordError> {
         if self.is_apart(rows, false) {
             return None;

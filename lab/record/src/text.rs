@@ -33,7 +33,7 @@ pub(super) struct Rows<'a> {
     may_be_cut: bool,
     /// The segments behind this text.
     more: std::vec::IntoIter<Segment<'a>>,
-    /// The segment that begins with the next row, where it is not the first.
+    /// The segment that begins with the next row, if it is not the first.
     opens: Option<Place>,
 }
 
@@ -63,7 +63,7 @@ pub(super) struct Place {
 pub(super) struct Row<'a> {
     cells: &'a StringRecord,
     notation: &'a Notation,
-    /// The segment that it begins, where it is not the first.
+    /// The segment that it begins, if it is not the first.
     pub(super) opens: Option<Place>,
     /// The line on which it begins, from 1.
     pub(super) line: usize,

@@ -1,9 +1,9 @@
 //! Commas that may separate thousands.
 //!
-//! A program that writes decimals writes as many in every cell (`900,000`) or as few as the
-//! number needs (`1,2`); one that groups digits writes `900` and `1,197`. A column in which
-//! every comma stands behind one to three digits and before three, and which has whole numbers
-//! of at most three digits without a comma, is read in either way, so that it is refused.
+//! A program that writes decimals writes equally many in every cell (`900,000`), or as few as the
+//! number needs (`1,2`). A program that groups digits writes `900` and `1,197`. A column is
+//! ambiguous, and therefore refused, if every comma is between one to three digits and three
+//! digits, and if the column also has whole numbers of at most three digits.
 
 use super::error::{shown, RecordError};
 

@@ -29,11 +29,11 @@ pub(super) struct Clock {
 pub(super) enum Stamp {
     /// Time \[s\] since the first row.
     Kept(f64),
-    /// Before `--start` or behind `--end`.
+    /// Before `--start` or after `--end`.
     Cut,
-    /// The stamp of the row before \[s\], where such rows may be left out.
+    /// The time stamp of the previous row \[s\], if such rows may be omitted.
     Repeats(f64),
-    /// A stamp before that of an earlier row \[s\], and the refusal of it.
+    /// A time stamp before that of an earlier row \[s\], and its error.
     Backwards(f64, RecordError),
 }
 

@@ -97,8 +97,7 @@ pub(super) fn is_label(cell: &str) -> bool {
     ["unit", "units", "einheit", "einheiten", "unité", "unités"].contains(&own.as_str())
 }
 
-/// The unit in a cell of a row of units, where it is one that the reader knows; brackets may
-/// stand round it.
+/// The unit in a cell of a row of units, if the reader knows it; it may be in brackets.
 pub(super) fn alone(cell: &str) -> Option<String> {
     let inner = [('[', ']'), ('(', ')')].iter().find_map(|(open, close)| {
         let inner = cell.strip_prefix(*open)?.strip_suffix(*close)?;
@@ -203,7 +202,7 @@ const VELOCITY_NAMES: [&str; 11] = [
     "v", "vel", "speed", "omega", "dx", "xd", "xdot", "x_dot", "dq", "qd", "qdot",
 ];
 
-/// Whether a column is a velocity, by its unit, or by its name where it states none.
+/// Whether a column is a velocity, by its unit, or by its name if it states no unit.
 #[must_use]
 pub fn is_velocity(name: &str, unit: Option<&str>) -> bool {
     let lower = name.to_lowercase();
@@ -221,7 +220,7 @@ pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
     }
 }
 
-/// The unit of time that a name is or ends in, and what is before it: `millis`, `elapsed_us`,
+/// The unit of time that a name is or ends in, and the rest of the name: `millis`, `elapsed_us`,
 /// `timeMs`.
 fn split_time(name: &str) -> Option<(&str, &'static str)> {
     let name = without_signs(name);
@@ -238,7 +237,7 @@ fn split_time(name: &str) -> Option<(&str, &'static str)> {
     (stem.is_empty() || unit != "d").then_some((stem, unit))
 }
 
-/// A name without what is neither letter nor digit at its ends.
+/// A name without the characters at its ends that are neither letters nor digits.
 fn without_signs(name: &str) -> &str {
     name.trim_matches(|c: char| !c.is_alphanumeric())
 }

@@ -36,7 +36,7 @@ pub(super) enum Value {
     Cells(Vec<Value>),
     /// An array of structures, each with its fields.
     Structures(Vec<Vec<(String, Value)>>),
-    /// An object of MATLAB's, a table or a time series, of this class.
+    /// An object of MATLAB (a table or a time series) of this class.
     Object(String),
     /// Complex or sparse numbers, functions.
     Other,

@@ -193,7 +193,8 @@ fn written(value: &DataRef<'_>, is_1904: bool) -> String {
     }
 }
 
-/// A stamp to the microsecond, which is what a double of days resolves; days count from 1900 or 1904.
+/// A time stamp to the microsecond, which is the resolution of days in a double; days count from
+/// 1900 or 1904.
 fn stamp_of(stamp: &ExcelDateTime, is_1904: bool) -> String {
     let day = 86_400_000_000.0;
     let whole = (stamp.as_f64() * day).round();

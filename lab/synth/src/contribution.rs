@@ -1,4 +1,4 @@
-//! Regressors at work, and the gain that each one gets.
+//! The regressors along the motion, and the gain of each one.
 
 use super::effect::{build, reads_load, usual_channel};
 use super::recipe::{refuse, Mode, Planted, Recipe, RecipeError};

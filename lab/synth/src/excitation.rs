@@ -104,7 +104,7 @@ impl Tones {
     }
 }
 
-/// Own time of the motion: it stands still in holds, reached smoothly.
+/// Internal time of the motion, which stops smoothly during holds.
 #[derive(Clone, Copy)]
 pub(super) struct Pace {
     pub(super) holds: bool,
@@ -152,7 +152,7 @@ impl Pace {
         Motion { x: start + x, v, a }
     }
 
-    /// A motion of its own time, seen in real time (chain rule).
+    /// A motion in internal time, converted to real time (chain rule).
     pub(super) fn of(own: Motion, motion: Motion) -> Motion {
         Motion {
             x: motion.x,

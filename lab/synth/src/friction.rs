@@ -1,4 +1,4 @@
-//! Effects of speed: they take energy out, more or less in different places.
+//! Effects of speed: they dissipate energy, depending on the position.
 
 use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;

@@ -13,8 +13,8 @@
 //! or integrator would be in both the record and the fit, and would cancel unnoticed. The generator
 //! therefore integrates the hysteresis as the paper prints it, by fourth-order Runge-Kutta with the
 //! analytic rate of the input, on a grid at least twenty times finer than the samples. Delays,
-//! lags, creep and plays run on this fine grid too. Friction changes its sign along another smooth
-//! curve than in the fit. The samples are quantised and noisy, like those of converters and
+//! lags, creep and plays run on this fine grid too. Friction changes its sign along a different
+//! smooth curve than in the fit. The samples are quantised and noisy, as from converters and
 //! encoders.
 //!
 //! ```
@@ -51,18 +51,18 @@ pub use stored::{stored_csv, stored_recipe};
 
 use std::fmt::Write as _;
 
-/// A generated column: its name, its unit and one value per sample.
+/// A generated column: name, unit and one value per sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Name in the header.
     pub name: &'static str,
     /// Unit in the header.
     pub unit: &'static str,
-    /// As the sensor reports it.
+    /// The values that the sensor reports.
     pub values: Vec<f64>,
 }
 
-/// A record and what is in it.
+/// A record and its truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synthetic {
     /// `t`, input, output, then the channels.
@@ -71,7 +71,7 @@ pub struct Synthetic {
     pub truth: Truth,
 }
 
-/// What was put into a record.
+/// The truth of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// Parameters of the transmission.
@@ -101,7 +101,7 @@ pub struct PlantedTruth {
     pub shapes: Vec<(&'static str, f64)>,
     /// Rms of its contribution about the mean (of an offset: about zero).
     pub rms: f64,
-    /// Its contribution to the output at each sample.
+    /// Contribution to the output at each sample.
     pub contribution: Vec<f64>,
 }
 

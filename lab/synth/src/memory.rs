@@ -1,4 +1,4 @@
-//! Effects that remember, stepped on the fine grid, and those of eta.
+//! Effects with memory, stepped on the fine grid, and effects of eta.
 
 use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;
@@ -56,7 +56,7 @@ fn backlash(r: f64) -> Regressor {
     .with("r", r)
 }
 
-/// A viscoelastic part that follows with a time constant of its own.
+/// A viscoelastic part that follows with a time constant.
 fn creep(extent: &Extent, slowness: f64) -> Regressor {
     let tau = slowness * extent.rms() / extent.speed;
     let mut state: Option<f64> = None;

@@ -1,7 +1,7 @@
 //! Effects that the catalogue does not list, which the search must report as "unknown".
 //!
-//! A local bump is what a single bad tooth, a kinked cable or one worn spot of a guide
-//! makes; a spike after reversals is a part that knocks against its stop.
+//! A local bump is caused by a single bad tooth, a kinked cable or a worn spot of a guide; a spike
+//! after each reversal is caused by a part that knocks against its stop.
 
 use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// What drives the transmission. The type is separate to keep the generator independent: see the
-/// crate's documentation.
+/// The input of the transmission. This type is separate from the lab's, to keep the generator
+/// independent: see the crate's documentation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// `tau_i` in, `tau_o` out, with the angles `phi_p` and `phi_d`.
@@ -91,7 +91,7 @@ impl Base {
 /// What to generate; start from [`Recipe::new`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recipe {
-    /// What drives the transmission.
+    /// The input of the transmission.
     pub mode: Mode,
     /// The effects that the baseline model will lack.
     pub effects: Vec<Planted>,
@@ -115,7 +115,7 @@ pub struct Recipe {
     pub amplitude: f64,
     /// Mean of the input \[N·m or mm\].
     pub bias: f64,
-    /// Whether all motion rests for a second from time to time.
+    /// Whether all motion stops for a second from time to time.
     pub holds: bool,
     /// Whether a temperature is recorded.
     pub temperature: bool,

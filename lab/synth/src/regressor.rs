@@ -1,4 +1,4 @@
-//! What a planted effect is made of: how far its channel moves, and its step.
+//! The regressor of a planted effect: the range of its channel, and its step.
 
 use super::excitation::Motion;
 use super::recipe::{Mode, Recipe};
@@ -67,13 +67,13 @@ pub(super) struct Regressor {
 /// What the sign of the gain has to be.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Sense {
-    /// Takes energy out: lowers the torque that arrives, raises the force.
+    /// Dissipates energy: lowers the transmitted torque, raises the force.
     Loss,
-    /// Takes away from the hysteresis.
+    /// Reduces the hysteresis.
     Relief,
-    /// Takes away from the output where it acts.
+    /// Reduces the output.
     Less,
-    /// Either sign is physical.
+    /// Both signs are physical.
     Either,
 }
 

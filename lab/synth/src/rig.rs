@@ -1,4 +1,4 @@
-//! The rig: what moves, and what can be measured on it.
+//! The rig: its motions and its measurements.
 
 use super::excitation::{Motion, Pace, Tones};
 use super::recipe::{Base, Mode, Recipe};
@@ -28,7 +28,7 @@ pub(super) enum Channel {
     Input,
     Proximal,
     Distal,
-    /// What the pulley leads the joint by.
+    /// The lead of the pulley over the joint.
     Stretch,
     Load,
     Temperature,
@@ -46,7 +46,7 @@ impl Channel {
         Self::Auxiliary,
     ];
 
-    /// Name and unit in the header; `None` where the mode has no such channel.
+    /// Name and unit in the header; `None` if the mode has no such channel.
     pub(super) fn label(self, mode: Mode) -> Option<(&'static str, &'static str)> {
         match (self, mode) {
             (Self::Input, Mode::Torque) => Some(("tau_i", "N·m")),

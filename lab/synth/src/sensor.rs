@@ -1,4 +1,4 @@
-//! What a sensor adds: noise and counts.
+//! A sensor's noise and counts.
 
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,4 +1,4 @@
-//! Effects of place, time and temperature: no memory, no speed.
+//! Effects of position, time and temperature, without memory and independent of the speed.
 
 use super::regressor::{Extent, Regressor, Sense};
 use rand::Rng;

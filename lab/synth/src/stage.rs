@@ -1,4 +1,4 @@
-//! Effects on the finished output: it arrives late.
+//! Effects on the complete output, which delay it.
 
 use super::recipe::{refuse, RecipeError};
 use super::sensor::spread;
@@ -59,8 +59,8 @@ fn lagging(output: &[f64], grid: &Grid, tau: f64) -> Vec<f64> {
     output.iter().map(&mut follow).collect()
 }
 
-/// Delays or lags the output so that the change has the wanted rms; returns
-/// the time that it takes and what it adds on the fine grid.
+/// Delays or lags the output so that the change has the requested rms; returns the time constant
+/// and the change on the fine grid.
 pub(super) fn apply(
     effect: &str,
     output: &[f64],

@@ -18,7 +18,7 @@ pub fn stored_recipe() -> Recipe {
     }
 }
 
-/// The stored record as a CSV file, byte for byte as it is generated.
+/// The stored record as a CSV file, byte for byte as generated.
 pub fn stored_csv() -> String {
     csv(&columns(&stored_recipe(), COUNTS))
 }

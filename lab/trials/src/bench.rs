@@ -1,9 +1,9 @@
 //! The rig's own open-loop bench record, and its identification.
 //!
-//! A multisine on the drive and another, slower one on the joint: the torque covers
-//! what the reference will ask for, and the joint's angle does not follow from the
-//! torque, as it does against the spring alone. Nobody controls anything. The record is
-//! written as CSV and read as any user's: the same reader, grids and loop.
+//! A multisine drives the motor, and a slower one the joint. The torque covers the range that the
+//! reference needs, and the joint's angle is independent of the torque, unlike with the spring
+//! alone. Nobody controls anything. The record is written as CSV and read like any user's record,
+//! by the same reader and the same search.
 
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
 use super::trial::MOST_UNDECLARED;
@@ -62,10 +62,10 @@ impl Multisine {
     }
 }
 
-/// What was recorded, as two CSV files.
+/// The record, as two CSV files.
 #[derive(Debug, Clone)]
 pub struct Record {
-    /// t, tau_i, tau_o, phi_p, phi_d: what `bowden identify` reads.
+    /// The columns t, tau_i, tau_o, phi_p and phi_d, which `bowden identify` reads.
     pub csv: String,
     /// The same with the command and the load, for drive, spring and cable.
     surroundings: String,
@@ -74,7 +74,7 @@ pub struct Record {
 /// Runs the rig in open loop.
 ///
 /// # Errors
-/// What the core refuses of the rig's numbers, or that the rig ran away.
+/// A number of the rig that the core refuses, or a rig that diverges.
 pub fn record(
     config: &RigConfig<f64>,
     undeclared: &[Term<f64>],
@@ -124,33 +124,34 @@ pub fn record(
     })
 }
 
-/// What the lab has identified from a bench record.
+/// The identification of a bench record.
 #[derive(Debug, Clone)]
 pub struct Identified {
-    /// The loop's own ledger.
+    /// The results table of the identification.
     pub ledger: Ledger,
-    /// Drive, spring and cable.
+    /// The parameters of drive, spring and cable.
     pub surroundings: Surroundings,
-    /// The baseline model alone.
+    /// The baseline model.
     pub declared: ModelFile,
-    /// The baseline model with what was found: the round that is best on the stop-check,
-    /// among those of which every term can be fed forward.
+    /// The baseline model with the found terms: the best model on the selection segment among those
+    /// whose terms can all be fed forward.
     pub found: ModelFile,
     /// Rms error of the baseline model on the held-out part \[N·m\].
     pub before: f64,
-    /// The same of the model with what was found \[N·m\].
+    /// Rms error of the model with the found terms on the held-out part \[N·m\].
     pub after: f64,
-    /// What was found and is fed forward, in words.
+    /// The found terms that are fed forward, in words.
     pub names: Vec<String>,
-    /// What was found beside it and is not: it reads the sum, or worsened the stop-check.
+    /// The found terms that are not fed forward: they read the sum, or raise the error on the
+    /// selection segment.
     pub left_out: Vec<String>,
     ranges: Vec<BenchRange<f64>>,
 }
 
-/// Puts the record through the lab.
+/// Identifies a model from the record.
 ///
 /// # Errors
-/// One sentence, as of `bowden identify`.
+/// The error message of `bowden identify`.
 pub fn identify(record: &Record) -> Result<Identified, String> {
     let options = Options {
         // The fade-in is over, and so is what the start has left behind.
@@ -209,10 +210,10 @@ pub fn identify(record: &Record) -> Result<Identified, String> {
 }
 
 impl Identified {
-    /// A model as a feed-forward that does not leave what the bench has covered.
+    /// A model as a feed-forward within the ranges of the bench record.
     ///
     /// # Errors
-    /// One sentence where it cannot be turned round.
+    /// A message if the model cannot be inverted.
     pub fn feed(&self, model: &ModelFile, latency: f64) -> Result<FeedForward, String> {
         let surroundings = Surroundings {
             latency,

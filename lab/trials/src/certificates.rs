@@ -12,31 +12,31 @@ use bowden_rig::RigConfig;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// One certificate of one law, or why there is none.
+/// One certificate of one law, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Promise {
-    /// The law that it is of.
+    /// The control law.
     pub law: String,
-    /// Which theorem: `theorem1`, `theorem1-tightest`, `rms`, `peak-continuous`, `peak-sampled`, `per-step`,
-    /// `rms-sampled`.
+    /// The theorem: `theorem1`, `theorem1-tightest`, `rms`, `peak-continuous`, `peak-sampled`,
+    /// `per-step`, `rms-sampled`.
     pub kind: &'static str,
-    /// What the value bounds.
+    /// The bounded quantity.
     pub bounds: Option<&'static str>,
     /// The bound \[N·m\].
     pub value: Option<f64>,
     /// Unit of the value.
     pub unit: &'static str,
-    /// Greater than the greatest reference: true, and worth nothing.
+    /// Whether the bound is vacuous: larger than the largest reference.
     pub vacuous: bool,
-    /// Which condition is not met, where there is no value.
+    /// The violated condition, if there is no value.
     pub refused: Option<String>,
-    /// What the user must check.
+    /// The assumptions that the user must check.
     pub assumptions: &'static [&'static str],
-    /// The term that the value is mostly made of, and its share, where that is told.
+    /// The largest term of the value, and its share, if it is reported.
     pub mostly: Option<Mostly>,
 }
 
-/// The greatest term of a bound.
+/// The largest term of a bound.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Mostly {
     /// What it is.
@@ -159,10 +159,10 @@ fn continuous(name: &str, law: &Adaptive<f64, 2>, known: &Plant<f64, 2>) -> Vec<
     ]
 }
 
-/// The laws of the setup: as they are, and as a firmware would box them.
+/// The laws of the setup: as they are, and with the bounds that firmware would set.
 ///
 /// # Errors
-/// One sentence where the core refuses the gains themselves.
+/// A message if the core refuses the gains.
 pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
     let refused = |e: Error| format!("[adaptive]: {e}");
     let settings = setup.adaptive.paper_settings();
@@ -232,7 +232,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
     Ok(lines)
 }
 
-/// The certificate of each controller of `bowden compare`, by its name.
+/// The certificate of each controller of `bowden compare`, by name.
 ///
 /// # Errors
 /// As [`all`].

@@ -9,27 +9,27 @@ use std::f64::consts::TAU;
 /// Longest step that counts \[s\].
 const LONGEST_DT: f64 = 0.1;
 
-/// How long a command takes to become torque \[s\].
+/// Time from a command to its torque \[s\].
 #[must_use]
 pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
     f64::from(rig.delay) / rate + rig.drive_lag
 }
 
-/// How long a command takes to show in what is measured \[s\]: it is held over a sample, and acts
-/// half of one later in the mean.
+/// Time from a command to its effect in the measured torque \[s\]: the command is held over a
+/// sample, and therefore acts half a sample later on average.
 #[must_use]
 pub fn shown(rig: &RigConfig<f64>, rate: f64) -> f64 {
     latency(rig, rate) + 0.5 / rate + rig.sensor_lag
 }
 
-/// Command and torque without friction.
+/// The plant from command to torque, without friction.
 ///
-/// The torque is that of the joint's spring, damping and inertia N(s)·phi_d; the motor works
-/// through the cable against the same and against its own, so that
-/// `P = gain/(1 + (th2·s² + th1·s)/N(s))`. For N its stiffness is taken, with the cable's.
+/// The torque is `N(s)·phi_d`, from the joint's spring, damping and inertia. The motor works
+/// through the cable against this torque and against its own inertia and damping, so `P = gain/(1 +
+/// (th2·s² + th1·s)/N(s))`. N is approximated by its stiffness, in series with the cable's.
 ///
 /// # Errors
-/// What the core refuses of the numbers.
+/// A number that the core refuses.
 pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
     let stiffness = (rig.cable_stiffness.recip() + rig.load_stiffness.recip()).recip();
     NominalPlant::of_mechanics(
@@ -40,7 +40,7 @@ pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
     )
 }
 
-/// Refuses a number by the name that the file has for it.
+/// Refuses a number by its name in the file.
 ///
 /// # Errors
 /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name.
@@ -52,11 +52,10 @@ pub fn above_zero(value: f64, name: &'static str) -> Result<(), Error> {
     }
 }
 
-/// The observer of these gains at a rate \[Hz\]; of the nominal plant what is left out is the
-/// rig's.
+/// The observer of these gains at a rate \[Hz\]; the nominal plant defaults to the rig's values.
 ///
 /// # Errors
-/// What the core refuses of the numbers.
+/// A number that the core refuses.
 pub fn observer(
     gains: &ObserverGains,
     rig: &RigConfig<f64>,

@@ -1,6 +1,6 @@
 //! Decimals rounded up or down; `format!` rounds to the nearest one.
 
-/// Which way a decimal may differ from its number.
+/// The side on which a decimal may differ from its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Towards {
     /// Not above the number.
@@ -12,7 +12,7 @@ pub enum Towards {
 /// More decimals than any `f64` has.
 const ALL: usize = 1080;
 
-/// As many decimals as show three digits of a number; `least` where that is more.
+/// The number of decimals that shows three digits of a number, but at least `least`.
 #[must_use]
 pub fn places(x: f64, least: usize) -> usize {
     if !(x.is_finite() && x != 0.0) {
@@ -23,8 +23,8 @@ pub fn places(x: f64, least: usize) -> usize {
     needed.max(least)
 }
 
-/// The number with at most so many `digits`, at least one; [`f64::floor`] or [`f64::ceil`] says
-/// on which side. What is not above zero stays as it is.
+/// The number with at most `digits` digits, at least one; [`f64::floor`] or [`f64::ceil`] selects
+/// the side. A number that is not above zero stays unchanged.
 #[must_use]
 pub fn digits(x: f64, digits: u8, round: fn(f64) -> f64) -> f64 {
     if !(x.is_finite() && x > 0.0) {
@@ -38,7 +38,7 @@ pub fn digits(x: f64, digits: u8, round: fn(f64) -> f64) -> f64 {
     }
 }
 
-/// Four decimals, or three digits of a small number, that are not below it: a bound.
+/// Four decimals, or three digits of a small number, rounded up: for a bound.
 #[must_use]
 pub fn above(x: f64) -> String {
     fixed(x, places(x, 4), Towards::Above)
@@ -54,7 +54,7 @@ pub fn fixed(x: f64, places: usize, to: Towards) -> String {
     signed(x, cut)
 }
 
-/// As `1.5e-3`, with `places` decimals.
+/// In the form `1.5e-3`, with `places` decimals.
 #[must_use]
 pub fn scientific(x: f64, places: usize, to: Towards) -> String {
     if !x.is_finite() {
@@ -83,8 +83,8 @@ fn signed(x: f64, text: String) -> String {
     }
 }
 
-/// A decimal without what is behind `places`, one more in its last place where that was not
-/// zero and `up`; and whether it has one digit more by that.
+/// A decimal cut after `places`, with its last place increased by one if `up` is set and the rest
+/// is not zero; and whether this added a digit.
 fn cut(exact: &str, places: usize, up: bool) -> (String, bool) {
     let (whole, behind) = exact.split_once('.').unwrap_or((exact, ""));
     let (kept, rest) = behind.split_at(places.min(behind.len()));

@@ -34,7 +34,7 @@ pub use super::trial::Row;
 pub use super::undeclared::Undeclared;
 pub use bowden_bound::Named;
 
-/// Gain, leakage and box of one estimate of the adaptive law.
+/// Gain, leakage and bounds of one estimate of the adaptive law.
 pub type Estimate = bowden::control::Estimator<f64>;
 
 /// Noise with which the gain of a found effect can be seen \[N·m rms\].
@@ -47,34 +47,35 @@ const FROM: f64 = 5.0;
 /// What is asked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Question<'a> {
-    /// A model that is fed forward, whose transmission the rig has too with `gains` or `rig`; or
-    /// gains, rig and model in one file; the paper's and the reference rig's where not given.
+    /// A model for the feed-forward, whose transmission the rig also has with `gains` or `rig`; or
+    /// gains, rig and model in one file. Default: the paper's gains and the reference rig.
     pub setup: Option<&'a Path>,
-    /// Gains of `bowden design`, which need the model in `setup`; or a file as of `setup`.
+    /// Gains from `bowden design`, which need the model in `setup`; or a file in the form of
+    /// `setup`.
     pub gains: Option<&'a Path>,
-    /// Other numbers of the rig. The drive gain that is not given is that of `gains`, where they
-    /// are those of `bowden design`.
+    /// Other numbers of the rig. The drive gain defaults to that of `gains`, if they are from
+    /// `bowden design`.
     pub rig: RigChanges,
-    /// White noise of the torque sensors \[N·m rms\], where another than the setup's.
+    /// White noise of the torque sensors \[N·m rms\]; default: that of the setup.
     pub noise: Option<f64>,
-    /// Whether the conduit is moved.
+    /// Whether the conduit moves.
     pub varying: bool,
     /// Length of a trial \[s\].
     pub seconds: f64,
     /// Number of trials, each with its own seed.
     pub seeds: u64,
-    /// Whether the reference is a gait, and not the paper's.
+    /// Whether the reference is a gait instead of the paper's.
     pub gait: bool,
-    /// The effect that nobody declares, where there is one.
+    /// The undeclared effect, if there is one.
     pub effect: Option<&'a str>,
-    /// Whether the signals of the first trial are wanted.
+    /// Whether to return the signals of the first trial.
     pub traced: bool,
 }
 
 /// The answer.
 #[derive(Debug, Clone)]
 pub struct Compared {
-    /// What the trials were run under.
+    /// The conditions of the trials.
     pub heading: Heading,
     /// What came out.
     pub results: Results,
@@ -83,33 +84,33 @@ pub struct Compared {
 /// What came out.
 #[derive(Debug, Clone)]
 pub enum Results {
-    /// The controllers of the paper and those without which they would mislead.
+    /// The controllers of the paper, and those that the comparison needs to be fair.
     Lineup(Lineup),
-    /// The loop closed through the controller.
+    /// An undeclared effect, identified and fed forward.
     Found(Found),
 }
 
-/// The controllers on the rig as declared.
+/// The controllers on the rig without an undeclared effect.
 #[derive(Debug, Clone)]
 pub struct Lineup {
     /// One line a controller.
     pub lines: Vec<Line>,
-    /// The certificate of a controller, by its name.
+    /// The certificates of the controllers, by name.
     pub certificates: BTreeMap<String, Promise>,
 }
 
-/// The controllers before and after an undeclared effect was found.
+/// The controllers with the baseline model and with the found terms.
 #[derive(Debug, Clone)]
 pub struct Found {
     /// The effect.
     pub effect: Undeclared,
     /// One outcome a seed.
     pub outcomes: Vec<Outcome>,
-    /// On how many seeds each controller gained.
+    /// The number of seeds on which each controller improved.
     pub over_seeds: Vec<OverSeeds>,
 }
 
-/// On how many seeds a controller follows better with what was found.
+/// The number of seeds on which the found terms reduce a controller's error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OverSeeds {
     /// Name of the controller.
@@ -125,7 +126,7 @@ pub struct OverSeeds {
 /// Runs the trials.
 ///
 /// # Errors
-/// One line where the setup cannot be read, a law is refused, or the bench finds no model.
+/// A message if the setup cannot be read, a law is refused, or no model is found.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let (mut setup, gains, is_model) = inputs(question)?;
     let own_setup = match (&gains, is_model) {
@@ -281,22 +282,22 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
     }
 }
 
-/// What is promised of a setup: of its adaptive law, of its PI with an observer, and of its PI with
+/// The certificates of a setup: for its adaptive law, its PI with an observer, and its PI with
 /// learning.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certified {
-    /// Of the adaptive law.
+    /// For the adaptive law.
     pub certificates: Vec<Promise>,
-    /// Of the PI with an observer.
+    /// For the PI with an observer.
     pub tolerance: Tolerance,
-    /// Of the PI with learning.
+    /// For the PI with learning.
     pub learning: Tolerance,
 }
 
 /// The certificates of a setup.
 ///
 /// # Errors
-/// One line where the setup cannot be read or the core refuses its gains.
+/// A message if the setup cannot be read or the core refuses its gains.
 pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     if let Some(path) = setup {
         let text = std::fs::read_to_string(path).unwrap_or_default();
@@ -410,7 +411,7 @@ fn over_seeds(outcomes: &[Outcome]) -> Vec<OverSeeds> {
 }
 
 impl Compared {
-    /// What came out, in a sentence or two.
+    /// The result in one or two sentences.
     #[must_use]
     pub fn sentence(&self) -> String {
         match &self.results {
@@ -419,8 +420,8 @@ impl Compared {
         }
     }
 
-    /// The lines whose first trial was traced: those of the first seed, named after what was
-    /// fed forward where the loop was closed through the controllers.
+    /// The controllers whose first trial was traced. With an undeclared effect, their names state
+    /// the feed-forward.
     #[must_use]
     pub fn traced(&self) -> Vec<Line> {
         let found = match &self.results {
@@ -463,7 +464,7 @@ fn best(lines: &[Line]) -> String {
     text + "."
 }
 
-/// What the bench has found on the first seed, and what that gained the first controller.
+/// The terms found on the first seed, and the improvement of the first controller.
 fn first_gain(found: &Found) -> String {
     let Some(outcome) = found.outcomes.first() else {
         return "No trial was run.".to_owned();

@@ -1,9 +1,9 @@
-//! The identified model along the reference: a feed-forward without noise.
+//! The identified model along the reference, as a feed-forward without noise.
 //!
-//! The motions that the effects read are derived from the reference, not measured: the
-//! joint's from its identified spring, the proximal pulley's from the stretch of the
-//! cable under the torque that the declared transmission needs. So nothing is fed back:
-//! neither noise nor an unstable zero of an effect can make the loop diverge.
+//! The motions that the effects read are derived from the reference, not measured: the joint's from
+//! its identified spring, the proximal pulley's from the stretch of the cable under the torque that
+//! the declared transmission needs. No measured signal is used, so neither noise nor an unstable
+//! zero of an effect can make the loop diverge.
 
 use bowden::control::{BenchRange, Changed, Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
@@ -11,10 +11,10 @@ use bowden::model::{Model, Source, Term};
 use bowden::signal::{Derivative, DerivativeState};
 use bowden_rig::Reference;
 
-/// Most terms of a model that is fed forward.
+/// Maximum number of terms of a model in the feed-forward.
 pub const MOST_TERMS: usize = 16;
 
-/// What the drive and the load are like, from a bench record or from a data sheet.
+/// Parameters of the drive and the load, from a bench record or from a specification.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
     /// Motor torque of one unit of command \[N·m/unit\].
@@ -29,23 +29,23 @@ pub struct Surroundings {
     pub joint_damping: f64,
     /// Stiffness of the cable \[N·m/rad\].
     pub cable_stiffness: f64,
-    /// How long the command takes to become torque \[s\].
+    /// Time from a command to its torque \[s\].
     pub latency: f64,
 }
 
 /// What a step gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fed {
-    /// The command that the model asks for \[units\].
+    /// The command of the model \[units\].
     pub command: f64,
-    /// The share of the effects in the output \[N·m\].
+    /// The contribution of the effects to the output \[N·m\].
     pub effects: f64,
 }
 
 /// Rates of the torque that the model needs are smoothed over this time \[s\].
 const SMOOTHING: f64 = 0.005;
 
-/// One pass: the transmission turned round behind the effects of one motion.
+/// One pass: the effects of one motion, then the inverse of the transmission.
 #[derive(Debug, Clone)]
 struct Pass {
     compensator: Compensator<f64, MOST_TERMS>,
@@ -80,7 +80,7 @@ impl Pass {
     }
 }
 
-/// An identified model as the feed-forward of a reference that is known in advance.
+/// An identified model as a feed-forward along a reference that is known in advance.
 #[derive(Debug, Clone)]
 pub struct FeedForward {
     surroundings: Surroundings,
@@ -99,13 +99,13 @@ enum Channel {
 }
 
 impl FeedForward {
-    /// From a model, the names of its channels, and the ranges that the bench has covered.
+    /// A feed-forward from a model, the names of its channels, and the ranges of the bench record.
     ///
-    /// Where the model cannot be turned round, the nearest that can be is fed forward
-    /// ([`Compensator::try_nearest`]); [`changed`](Self::changed) says in what it differs.
+    /// If the model has no inverse, the nearest invertible model is used
+    /// ([`Compensator::try_nearest`]); [`changed`](Self::changed) states the differences.
     ///
     /// # Errors
-    /// One sentence where the model cannot be turned round.
+    /// A message if the model cannot be inverted.
     pub fn new(
         model: &Model<f64, MOST_TERMS>,
         channels: &[String],
@@ -163,19 +163,19 @@ impl FeedForward {
         })
     }
 
-    /// In what the feed-forward differs from the model that was given.
+    /// The differences between the feed-forward and the given model.
     #[must_use]
     pub fn changed(&self) -> &Changed<f64, MOST_TERMS> {
         &self.changed
     }
 
-    /// The same in words, where there is a difference.
+    /// The same in words, if there is a difference.
     #[must_use]
     pub fn changed_words(&self) -> Option<&str> {
         (!self.changed_words.is_empty()).then_some(&self.changed_words)
     }
 
-    /// One sample: what will be wanted once the command has become torque.
+    /// One sample, for the reference at the time when the command becomes torque.
     pub fn step(&mut self, reference: &Reference<f64>, t: f64, dt: f64) -> Fed {
         let s = &self.surroundings;
         // Held over one sample, the command acts half of one later in the mean.

@@ -14,36 +14,36 @@ use std::cmp::Ordering;
 /// Rate of the slow loops \[Hz\].
 pub const SLOW: f64 = 250.0;
 
-/// The reference rises from zero over this time \[s\]: a start that overshoots would
-/// decide what the adaptive law has learnt, instead of the effect.
+/// The reference rises from zero over this time \[s\]. After a start with an overshoot, the
+/// adaptive law would learn from the overshoot instead of the effect.
 pub const RAMP: f64 = 2.0;
 
-/// Share of the paper's gains that the quiet loops have.
+/// Gains of the quiet loops, as a share of the paper's gains.
 pub const QUIET: f64 = 0.2;
 
-/// One controller before and after.
+/// One controller with the baseline model and with the found terms.
 #[derive(Debug, Clone)]
 pub struct Pair {
-    /// Name of the controller, with how the model enters.
+    /// Name of the controller, and the use of the model.
     pub controller: String,
     /// Without any model.
     pub plain: Line,
-    /// With the baseline model, as the bench has fitted it.
+    /// With the baseline model, fitted to the bench record.
     pub declared: Line,
-    /// With what was found beside it.
+    /// With the found terms in addition.
     pub found: Line,
 }
 
 impl Pair {
-    /// The error with what was found, against the error before; running away is worst.
+    /// Compares the error with the found terms with the error of the baseline model; divergence is
+    /// worst.
     #[must_use]
     pub fn against_before(&self) -> Ordering {
         let error = |line: &Line| line.mean_error().unwrap_or(f64::INFINITY);
         error(&self.found).total_cmp(&error(&self.declared))
     }
 
-    /// By which share of the error before the error is higher with what was found; `None`
-    /// where a law ran away.
+    /// The relative increase of the error with the found terms; `None` if a law diverged.
     #[must_use]
     pub fn change(&self) -> Option<f64> {
         Some(self.found.mean_error()? / self.declared.mean_error()? - 1.0)
@@ -55,9 +55,9 @@ impl Pair {
 pub struct Outcome {
     /// The seed.
     pub seed: u64,
-    /// In what the model that was found had to be changed to be fed forward, if in anything.
+    /// The changes that made the found model invertible, if any.
     pub fed_with: Option<String>,
-    /// What the lab has found.
+    /// The identified model.
     pub identified: Identified,
     /// Every controller.
     pub pairs: Vec<Pair>,
@@ -143,7 +143,7 @@ const KINDS: [Kind; 7] = [
 /// Runs one seed from the bench record to the tracking errors.
 ///
 /// # Errors
-/// One sentence from the rig, the lab or the feed-forward.
+/// A message from the rig, the identification or the feed-forward.
 pub fn outcome(
     setup: &Setup,
     undeclared: &Undeclared,

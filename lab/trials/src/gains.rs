@@ -1,7 +1,7 @@
 //! Gains as a file, schema `bowden.gains/1`: what `bowden design` writes and `compare` reads.
 //!
-//! One table a controller, with the names of the core's fields, so that firmware with the
-//! feature `serde` reads a table as it stands into `PidSettings` or `AdaptiveSettings`.
+//! The file has one table for each controller, with the names of the core's fields, so that
+//! firmware with the feature `serde` can read a table into `PidSettings` or `AdaptiveSettings`.
 
 use bowden::control::{Adaptive, AdaptiveSettings, Pid, PidSettings};
 use serde::{Deserialize, Serialize};
@@ -15,39 +15,41 @@ pub const SCHEMA: &str = "bowden.gains/1";
 pub struct GainsFile {
     /// [`SCHEMA`].
     pub schema: String,
-    /// What the gains were designed for.
+    /// The conditions that the gains were designed for.
     pub design: DesignedFor,
     /// PI.
     pub pi: PidSettings<f64>,
-    /// PID, where the derivative helps.
+    /// The PID, if the derivative helps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pid: Option<PidSettings<f64>>,
-    /// The adaptive law in lag form without regressors, where gains are admissible.
+    /// The adaptive law in lag form without regressors, if gains are admissible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<AdaptiveSettings<f64, 0>>,
-    /// What `bowden certify` assumes of the plant of the adaptive law, where it is known.
+    /// The ranges of the plant of the adaptive law that `bowden certify` assumes, if they are
+    /// known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plant: Option<Known>,
 }
 
-/// What is known of a plant: all that a certificate of the adaptive law needs beside its gains.
+/// Known ranges of a plant: the input of a certificate of the adaptive law, in addition to the
+/// gains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Known {
-    /// Least and greatest alpha \[N·m/command unit\].
+    /// Smallest and largest alpha \[N·m/command unit\].
     pub alpha: [f64; 2],
     /// Bound on the disturbance \[N·m\].
     pub disturbance: f64,
-    /// Bound on its rate \[N·m/s\].
+    /// Bound on the rate \[N·m/s\].
     pub disturbance_rate: f64,
     /// Bound on the reference \[N·m\].
     pub reference: f64,
-    /// Bound on its rate \[N·m/s\].
+    /// Bound on the rate \[N·m/s\].
     pub reference_rate: f64,
 }
 
 impl Known {
-    /// The first number that is none of its kind: its key, and what is needed.
+    /// The first invalid number: its key, and the allowed values.
     fn refused(&self) -> Option<(&'static str, String)> {
         let [low, high] = self.alpha;
         if !(low.is_finite() && high.is_finite() && 0.0 < low && low <= high) {
@@ -68,13 +70,13 @@ impl Known {
     }
 }
 
-/// What gains were designed for.
+/// The conditions that gains were designed for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DesignedFor {
     /// The program and its version.
     pub by: String,
-    /// The model's file, without folders.
+    /// Name of the model's file, without folders.
     pub model: String,
     /// Samples a second \[Hz\].
     pub rate: f64,
@@ -87,10 +89,10 @@ pub struct DesignedFor {
 }
 
 impl GainsFile {
-    /// Reads a text; `label` stands for the file's name.
+    /// Reads a text; `label` is the name of the file.
     ///
     /// # Errors
-    /// One line with file, line, column and key.
+    /// A message with file, line, column and key.
     pub fn parse(text: &str, label: &str) -> Result<Self, String> {
         let gains: Self = toml::from_str(text).map_err(|e| message(&e, text, label))?;
         if gains.schema != SCHEMA {
@@ -136,7 +138,7 @@ impl GainsFile {
     /// As TOML.
     ///
     /// # Errors
-    /// Where a number cannot be written.
+    /// If a number cannot be written.
     pub fn toml(&self) -> Result<String, toml::ser::Error> {
         let d = &self.design;
         Ok(format!(
@@ -149,7 +151,8 @@ impl GainsFile {
         ))
     }
 
-    /// Samples of `design.rate` in one step of the adaptive law: 1 where it runs at that rate.
+    /// Number of samples of `design.rate` in one step of the adaptive law; 1 if the law runs at
+    /// this rate.
     #[must_use]
     pub fn adaptive_every(&self) -> usize {
         let step = self.adaptive.map(|law| law.form);
@@ -192,7 +195,7 @@ fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
     }
 }
 
-/// file:line:column: what is wrong, in one line.
+/// The error as `file:line:column: message`, in one line.
 pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
     if text.trim_start().starts_with('{') {
         return format!(
@@ -212,7 +215,7 @@ pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> Strin
     }
 }
 
-/// The key of the line on which an error stands.
+/// The key of the line with an error.
 fn key_at(text: &str, at: usize) -> Option<&str> {
     let start = text.get(..at)?.rfind('\n').map_or(0, |i| i + 1);
     let line = text.get(start..)?.lines().next()?.trim();

@@ -8,50 +8,50 @@ use super::setup::Setup;
 use bowden_rig::{Drift, Reference, RigConfig};
 use std::path::Path;
 
-/// What the trials were run under.
+/// The conditions of the trials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// White noise of the sensor \[N·m rms\].
     pub noise: f64,
-    /// Whether the conduit was moved.
+    /// Whether the conduit moves.
     pub varying: bool,
     /// Length of a trial \[s\].
     pub seconds: f64,
-    /// From where errors count \[s\].
+    /// Start of the time over which errors are computed \[s\].
     pub from: f64,
     /// Length of the transient \[s\].
     pub transient: f64,
     /// Number of trials.
     pub seeds: usize,
-    /// In what `--model` had to be changed to be fed forward, if in anything.
+    /// The changes that made the model of `--model` invertible, if any.
     pub fed_with: Option<String>,
-    /// The model whose transmission the rig has, without folders; `None` of the reference rig's.
+    /// The file of the model whose transmission the rig has, without folders; `None` for the
+    /// reference rig.
     pub model: Option<String>,
-    /// The gains of `bowden design` that run, without folders; `None` of the paper's.
+    /// The file of gains from `bowden design`, without folders; `None` for the paper's gains.
     pub gains: Option<String>,
-    /// The model that these gains were designed for, without folders.
+    /// The file of the model that these gains were designed for, without folders.
     pub designed_model: Option<String>,
     /// The drive gain that these gains were designed for \[N·m/unit\].
     pub designed_drive_gain: Option<f64>,
-    /// The file of gains and rig, without folders, where there is one.
+    /// The file of gains and rig, without folders, if there is one.
     pub setup: Option<String>,
     /// The rig's drive gain \[N·m/unit\].
     pub drive_gain: f64,
-    /// The rig's numbers that were given one by one.
+    /// The parameters of the rig that were given as options.
     pub rig: RigChanges,
-    /// Whether the reference is a gait, and not the paper's.
+    /// Whether the reference is a gait instead of the paper's.
     pub gait: bool,
-    /// Between which values the reference moves \[N·m\], where those are not its own.
+    /// Range of the reference \[N·m\], if it is shifted or scaled.
     pub reference: Option<[f64; 2]>,
-    /// True error that the lag of the sensor alone makes of a law whose measured error is zero
-    /// \[N·m rms\].
+    /// True error that the lag of the sensor causes for a law with zero measured error \[N·m rms\].
     pub lag_error: f64,
-    /// Whether rig, gains and reference are those of the paper's experiment, whatever the noise.
+    /// Whether rig, gains and reference are those of the paper's experiment, with any noise.
     pub is_paper: bool,
 }
 
 impl Heading {
-    /// What is the user's own but for the model: gains, reference, numbers of the rig. A
+    /// The user's own conditions except for the model: gains, reference, parameters of the rig. A
     /// sentence each.
     #[must_use]
     pub fn own(&self) -> Vec<String> {
@@ -122,8 +122,8 @@ impl Heading {
         all
     }
 
-    /// Mean and standard deviation of a controller in Table 3 of the paper \[N·m\], where rig
-    /// and gains are the paper's and the controller has a row there.
+    /// Mean and standard deviation of a controller in Table 3 of the paper \[N·m\], if rig and
+    /// gains are the paper's and the table has a row for the controller.
     #[must_use]
     pub fn paper(&self, controller: &str) -> Option<[f64; 2]> {
         let row = PAPER.iter().find(|row| row.0 == controller)?;
@@ -148,8 +148,8 @@ pub(super) fn lag_error(reference: &Reference<f64>, lag: f64, (from, to): (f64, 
     lag * (squares.sum::<f64>() / steps.max(1.0)).sqrt()
 }
 
-/// Whether rig and gains of a setup are those of Table 3: the noise may be another, since the
-/// comparison without it is told beside the paper's.
+/// Whether rig and gains of a setup are those of Table 3. The noise may differ, because a
+/// comparison without noise is also shown next to the paper's values.
 pub(super) fn is_paper(setup: &Setup) -> bool {
     let paper = Setup::default();
     let drift = setup.rig.drift;

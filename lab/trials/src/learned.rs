@@ -1,4 +1,4 @@
-//! Learning together with a law, with the inverse of its nominal plant along the reference.
+//! Learning together with a law and the inverse of the nominal plant along the reference.
 
 use super::data_sheet::{above_zero, nominal, shown};
 use super::setup::IterativeLearningGains;
@@ -9,10 +9,10 @@ use bowden::effect::Motion;
 use bowden::Error;
 use bowden_rig::RigConfig;
 
-/// Learning over the cycle of a reference, and what goes beside it.
+/// Learning over the cycle of a reference, with its feed-forward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Learned {
-    /// Its gain, lead, filter and limit.
+    /// Gain, lead, filter and limit of the learning.
     pub learning: IterativeLearning<f64>,
     /// Cells of a cycle.
     pub cells: usize,
@@ -20,7 +20,7 @@ pub struct Learned {
     pub period: f64,
     /// The plant whose inverse is fed forward.
     pub plant: NominalPlant<f64>,
-    /// How long before its time the reference is read for that \[s\].
+    /// Time by which the reference is read ahead for the inverse \[s\].
     pub latency: f64,
 }
 
@@ -31,7 +31,7 @@ impl Learned {
     /// Over a cycle of `period` \[s\], on a rig at a rate \[Hz\].
     ///
     /// # Errors
-    /// What the core refuses of the numbers.
+    /// A number that the core refuses.
     pub fn new(
         gains: &IterativeLearningGains,
         period: f64,

@@ -1,10 +1,9 @@
-//! Controllers on the simulated rig: who tracks the paper's reference, and how well.
+//! Controllers on the simulated rig, and how well each tracks the paper's reference.
 //!
-//! [`lineup`] says who runs, [`trial`] runs one of them, [`table`] puts seeds together.
-//! [`found`] closes the loop through the controller: an undeclared effect is switched on
-//! in the rig, the lab's own path identifies it from the rig's bench record ([`mod@bench`]),
-//! and what was found becomes a feed-forward ([`feed`]) or a regressor. [`mod@design`] goes
-//! from an identified model to gains, which are a file of their own ([`gains`]).
+//! [`lineup`] lists the controllers, [`trial`] runs one of them, and [`table`] combines the seeds.
+//! [`found`] adds an undeclared effect to the rig, identifies it from the rig's bench record
+//! ([`mod@bench`]), and uses the found terms as a feed-forward ([`feed`]) or as a regressor.
+//! [`mod@design`] derives gains from an identified model; [`gains`] is their file.
 
 pub mod bench;
 pub mod certificates;

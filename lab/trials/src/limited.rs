@@ -4,11 +4,12 @@
 use bowden::control::Limits;
 use serde::Serialize;
 
-/// Share of the samples from which it is told. A choice: a command that meets a limit now and then is
-/// what limits are for.
+/// Share of the samples from which a limit is reported. A choice: a command may reach a limit now
+/// and then.
 pub const TOLD: f64 = 0.2;
 
-/// Of what a slew rate admits in a step, from here on it is met: a sum of floats need not reach it.
+/// Share of the largest step from which the slew-rate limit counts as reached: a sum of floats need
+/// not reach it exactly.
 const MET: f64 = 1.0 - 1e-9;
 
 /// Shares of the samples of the steady part.
@@ -16,12 +17,12 @@ const MET: f64 = 1.0 - 1e-9;
 pub struct AtLimit {
     /// At an end of the range.
     pub range: f64,
-    /// At the slew rate.
+    /// At the slew-rate limit.
     pub slew: f64,
 }
 
 impl AtLimit {
-    /// In words, where one of the two is more than [`TOLD`].
+    /// In words, if one of the two exceeds [`TOLD`].
     #[must_use]
     pub fn words(&self) -> Option<String> {
         let told = |share: f64, limit: &str| {

@@ -1,5 +1,5 @@
-//! The controllers of a comparison: the four of the paper, and those without which the comparison
-//! would mislead.
+//! The controllers of a comparison: the four of the paper, and those that the comparison needs to
+//! be fair.
 
 use super::data_sheet::{latency, observer};
 use super::feed::{FeedForward, Surroundings, MOST_TERMS};
@@ -17,7 +17,8 @@ use bowden_rig::RigConfig;
 /// The rate of the paper's experiment, and of the reference rig \[Hz\].
 pub const RATE: f64 = 1000.0;
 
-/// The cycle that is learned over, that of [`Reference::gait`](bowden_rig::Reference::gait) \[s\].
+/// The cycle of the learning, which is that of [`Reference::gait`](bowden_rig::Reference::gait)
+/// \[s\].
 pub const GAIT: f64 = 1.0;
 
 /// All laws of a setup, checked.
@@ -31,11 +32,11 @@ pub struct Laws {
     pub piv: Pid<f64>,
     /// PI with the adaptive law's integral gain.
     pub matched_pi: Pid<f64>,
-    /// The PI beside the observer.
+    /// The PI with the observer.
     pub observed_pi: Pid<f64>,
     /// The observer.
     pub observer: DisturbanceObserver<f64>,
-    /// The PI beside the learning.
+    /// The PI with the learning.
     pub learning_pi: Pid<f64>,
     /// Learning over the gait's cycle.
     pub learning: Learned,
@@ -47,7 +48,7 @@ impl Laws {
     /// Checks every law of the setup.
     ///
     /// # Errors
-    /// The table that it stands in, and what the core refuses.
+    /// The table of the refused law, and the error of the core.
     pub fn new(setup: &Setup) -> Result<Self, (&'static str, bowden::Error)> {
         let pid = |name, settings| Pid::try_new(settings).map_err(|e| (name, e));
         let paper = Pid::<f64>::paper_pi();
@@ -75,16 +76,16 @@ impl Laws {
     }
 }
 
-/// The adaptive law with a prior for the third regressor; zero leaves it out.
+/// The adaptive law with a prior for the third regressor; zero omits it.
 ///
 /// # Errors
-/// What the core refuses of the gains.
+/// A gain that the core refuses.
 pub fn adaptive(gains: &AdaptiveGains, prior: f64) -> Result<ThreeRegressors, bowden::Error> {
     Adaptive::try_new(gains.settings(prior))
 }
 
 impl Surroundings {
-    /// As the rig's data sheet has them.
+    /// The nominal parameters of the rig.
     #[must_use]
     pub fn of(rig: &RigConfig<f64>) -> Self {
         Self {
@@ -99,7 +100,7 @@ impl Surroundings {
     }
 }
 
-/// What a controller knows of the plant that it runs on; `None` if its law has no plant model.
+/// The plant model of a controller; `None` if its law has none.
 #[must_use]
 pub fn knows(controller: &str) -> Option<&'static str> {
     match controller {
@@ -118,10 +119,11 @@ pub fn knows(controller: &str) -> Option<&'static str> {
     }
 }
 
-/// The eight of `bowden compare`, in its order, and a ninth that learns where the reference repeats.
+/// The eight controllers of `bowden compare`, in its order, and a ninth with learning if the
+/// reference repeats.
 ///
 /// # Errors
-/// One sentence where a law is refused or the model cannot be turned round.
+/// A message if a law is refused or the model cannot be inverted.
 pub fn lineup(setup: &Setup, repeats: bool) -> Result<Vec<Controller>, String> {
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
     let plain = |name: &str, law: Law| Controller::alone(name, law, RATE);
@@ -170,7 +172,7 @@ fn frozen(setup: &Setup) -> Result<ThreeRegressors, String> {
 /// The model of the setup, or the rig's own transmission, as a feed-forward.
 ///
 /// # Errors
-/// One sentence where the model cannot be turned round.
+/// A message if the model cannot be inverted.
 pub fn declared_feed(setup: &Setup) -> Result<FeedForward, String> {
     let surroundings = Surroundings::of(&setup.rig);
     match &setup.model {
@@ -192,7 +194,7 @@ pub fn declared_feed(setup: &Setup) -> Result<FeedForward, String> {
     }
 }
 
-/// What a model's term reads, in words.
+/// The signal that a term of a model reads, in words.
 #[must_use]
 pub fn source_name(source: Source) -> &'static str {
     match source {

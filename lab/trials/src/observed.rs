@@ -1,4 +1,4 @@
-//! A disturbance observer together with a law, with the inverse of its nominal plant along the
+//! A disturbance observer together with a law and the inverse of the nominal plant along the
 //! reference.
 
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
@@ -16,8 +16,9 @@ impl<'a> Observing<'a> {
         Self { observer, state }
     }
 
-    /// What is added to the next command \[units\]; `sent` is what went out at the last sample. The
-    /// reference is read as far `ahead` \[s\] as a command takes to show in what is measured.
+    /// The value to add to the next command \[units\]; `sent` is the applied command of the last
+    /// sample. The reference is read `ahead` \[s\] by the time from a command to its effect in the
+    /// measurement.
     pub(crate) fn step(
         &mut self,
         dt: f64,

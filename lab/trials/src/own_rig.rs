@@ -11,14 +11,14 @@ use bowden::transmission::Transmission;
 use bowden_lab::export::{ModelFile, MOST_TERMS};
 use bowden_rig::{Rig, RigConfig};
 
-/// Numbers of the rig that are given one by one; what is not given stays.
+/// Parameters of the rig that are given as options; the others keep their values.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct RigChanges {
     /// Torque at the proximal pulley per command unit \[N·m/unit\].
     pub drive_gain: Option<f64>,
     /// Inertia of motor and proximal pulley \[kg·m²\].
     pub motor_inertia: Option<f64>,
-    /// Viscous friction of the same \[N·m·s/rad\].
+    /// Viscous friction of motor and proximal pulley \[N·m·s/rad\].
     pub motor_damping: Option<f64>,
     /// Inertia of the distal pulley \[kg·m²\].
     pub joint_inertia: Option<f64>,
@@ -41,7 +41,7 @@ impl RigChanges {
     /// The rig with these numbers; a sub-step that is too long for them becomes shorter.
     ///
     /// # Errors
-    /// One line with the number that the rig refuses.
+    /// A message with the number that the rig refuses.
     pub fn apply(&self, rig: RigConfig<f64>) -> Result<RigConfig<f64>, String> {
         let mut rig = RigConfig {
             drive_gain: self.drive_gain.unwrap_or(rig.drive_gain),
@@ -93,17 +93,17 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 /// The transmission of a model file.
 ///
 /// # Errors
-/// One sentence where there is none.
+/// A message if there is none.
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();
     cable.ok_or_else(|| "no table `transmission`: the model must contain it".to_owned())
 }
 
-/// The effects of a model as the rig has them: its pulleys are the channels `phi_p` and `phi_d`.
+/// The effects of a model for the rig, whose pulleys are the channels `phi_p` and `phi_d`.
 ///
 /// # Errors
-/// One sentence where the rig has no such channel, or holds fewer effects.
+/// A message if the rig has no such channel, or if there are too many effects.
 pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let terms = model.terms().iter().map(|term| {
@@ -133,14 +133,14 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
     }
 }
 
-/// Share of what the record of the model has covered that the reference uses.
+/// Share of the range of the model's record that the reference uses.
 const SHARE: f64 = 0.8;
 
-/// Where the reference moves, within what the record of a model has covered \[N·m\]; `None` where
-/// the file does not say.
+/// Range of the reference, within the range of the model's record \[N·m\]; `None` if the file does
+/// not state it.
 ///
 /// # Errors
-/// One sentence where the record has covered no output in both directions.
+/// A message if the record reaches no output in both directions.
 pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[f64; 2]>, String> {
     let ranges = file.about.as_ref().map(|about| &about.ranges);
     let Some(seen) = ranges.and_then(|ranges| ranges.get("input")) else {
@@ -158,10 +158,10 @@ pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[
     }
 }
 
-/// The controllers of a gains file, and PI with the model turned round in front of it.
+/// The controllers of a gains file, and the PI with the inverse of the model as a feed-forward.
 ///
 /// # Errors
-/// One sentence where a law is refused or the model cannot be turned round.
+/// A message if a law is refused or the model cannot be inverted.
 pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, String> {
     let rate = gains.design.rate;
     let plain = Controller::alone;

@@ -64,8 +64,9 @@
 //! n = 3.871
 //! ```
 //!
-//! A file that is such a model by itself is read as one; beside gains `bowden compare --model`
-//! gives the rig its transmission and its effects ([`own_rig`](super::own_rig)).
+//! A file that contains only such a model is accepted too. Together with gains, `bowden compare
+//! --model` gives the rig the transmission and the effects of this model
+//! ([`own_rig`](super::own_rig)).
 
 use bowden::control::{AdaptiveSettings, DerivativeSource, Estimator, Form, Leakage, PidSettings};
 use bowden_lab::export::ModelFile;
@@ -88,15 +89,15 @@ pub struct Setup {
     pub matched_pi: PidGains,
     /// The PI with a disturbance observer.
     pub observer: ObserverGains,
-    /// The PI with learning, where the reference repeats.
+    /// The PI with learning, if the reference repeats.
     pub learning: IterativeLearningGains,
     /// The adaptive law.
     pub adaptive: AdaptiveGains,
-    /// The model that is fed forward; the rig's own transmission where there is none.
+    /// The model of the feed-forward; default: the rig's own transmission.
     pub model: Option<ModelFile>,
 }
 
-/// Gains of PI, PID or PIV; what is left out is the paper's.
+/// Gains of PI, PID or PIV; default: the paper's.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PidGains {
@@ -133,7 +134,7 @@ impl PidGains {
     }
 }
 
-/// A PI with a disturbance observer; of the nominal plant what is left out is the rig's.
+/// A PI with a disturbance observer; the nominal plant defaults to the rig's values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ObserverGains {
@@ -143,7 +144,7 @@ pub struct ObserverGains {
     pub k_i: f64,
     /// Corner of Q \[Hz\].
     pub frequency: f64,
-    /// Greatest magnitude of what the observer adds \[units\].
+    /// Largest magnitude of the observer's estimate \[units\].
     pub limit: f64,
     /// Gain of the nominal plant \[N·m/unit\].
     pub gain: Option<f64>,
@@ -178,13 +179,13 @@ pub struct IterativeLearningGains {
     pub k_i: f64,
     /// Gain of the learning \[units/(N·m)\].
     pub gain: f64,
-    /// How long a command comes before its effect \[s\].
+    /// Time from a command to its effect \[s\].
     pub lead: f64,
     /// Corner of Q \[Hz\].
     pub frequency: f64,
     /// Cells of a cycle.
     pub cells: usize,
-    /// Greatest magnitude of what is learned \[units\].
+    /// Largest magnitude of the learned values \[units\].
     pub limit: f64,
 }
 
@@ -254,7 +255,7 @@ impl Default for AdaptiveGains {
 }
 
 impl AdaptiveGains {
-    /// As the core's settings over velocity and acceleration alone, (19)-(26).
+    /// The settings of the core over velocity and acceleration, (19)-(26).
     #[must_use]
     pub fn paper_settings(&self) -> AdaptiveSettings<f64, 2> {
         let AdaptiveSettings {
@@ -275,7 +276,7 @@ impl AdaptiveGains {
         }
     }
 
-    /// As the core's settings, with a third regressor that starts at, and leaks to, `prior`.
+    /// The settings of the core, with a third regressor that starts at `prior` and leaks to it.
     #[must_use]
     pub fn settings(&self, prior: f64) -> AdaptiveSettings<f64, 3> {
         let theta = Estimator::free(0.0).adapting(self.lambda_mu_i / self.lambda, self.sigma_i);

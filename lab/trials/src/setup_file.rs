@@ -10,17 +10,17 @@ impl Setup {
     /// Reads a file.
     ///
     /// # Errors
-    /// One line with file, line, column and key.
+    /// A message with file, line, column and key.
     pub fn read(path: &Path) -> Result<Self, String> {
         let label = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
         Self::parse(&text, &label)
     }
 
-    /// Reads a text; `label` stands for the file's name.
+    /// Reads a text; `label` is the name of the file.
     ///
     /// # Errors
-    /// One line with file, line, column and key.
+    /// A message with file, line, column and key.
     pub fn parse(text: &str, label: &str) -> Result<Self, String> {
         if is_of_design(text) {
             return Err(format!(

@@ -43,7 +43,7 @@ pub struct Line {
     pub effort: f64,
     /// Reversals of the command, mean \[1/s\].
     pub reversals: f64,
-    /// How much of the steady part the command is at a limit, mean.
+    /// Share of the steady part in which the command is at a limit, mean.
     pub at_limit: AtLimit,
     /// Rms of the true error in the first 12 s \[N·m\].
     pub transient: Spread,
@@ -51,18 +51,18 @@ pub struct Line {
     pub transient_peak: f64,
     /// Largest command of any trial \[units\].
     pub command: f64,
-    /// Trials that ran away.
+    /// Number of trials that diverged.
     pub diverged: usize,
-    /// When the first of them did \[s\]; `None` where none did.
+    /// Time at which the first of them diverged \[s\]; `None` if none did.
     pub ran_away: Option<f64>,
-    /// The trial of the first seed, with its trace where that was asked for.
+    /// The trial of the first seed, with its trace if requested.
     pub first: Trial,
     /// Rms of the true error of each seed \[N·m\].
     pub each: Vec<f64>,
 }
 
 impl Line {
-    /// Mean rms of the true error, steady part \[N·m\]; `None` of a law that ran away.
+    /// Mean rms of the true error, steady part \[N·m\]; `None` if the law diverged.
     #[must_use]
     pub fn mean_error(&self) -> Option<f64> {
         (self.diverged == 0).then_some(self.rmse_true.mean)
@@ -72,7 +72,7 @@ impl Line {
 /// Runs every controller on every seed, on all cores; the order is that of the list.
 ///
 /// # Errors
-/// What the core refuses of the rig's numbers.
+/// A number of the rig that the core refuses.
 pub fn run_all(
     controllers: &[Controller],
     conditions: &Conditions,
@@ -124,8 +124,8 @@ fn line(name: &str, trials: &[Trial], conditions: &Conditions) -> Line {
     }
 }
 
-/// The controller with the smallest mean true error among those that `among` admits; `None` if all of
-/// them ran away.
+/// The controller with the smallest mean true error among those that `among` admits; `None` if all
+/// of them diverged.
 pub fn smallest_error(lines: &[Line], among: impl Fn(&str) -> bool) -> Option<&Line> {
     let lines = lines.iter().filter(|line| among(&line.controller));
     let finished = lines.filter_map(|line| Some((line.mean_error()?, line)));
@@ -133,7 +133,7 @@ pub fn smallest_error(lines: &[Line], among: impl Fn(&str) -> bool) -> Option<&L
     least.map(|(_, line)| line)
 }
 
-/// Which commands are at a limit for much of the steady part; `None` where none is.
+/// The commands that are at a limit for much of the steady part; `None` if there are none.
 #[must_use]
 pub fn told_of_limits(lines: &[Line]) -> Option<String> {
     let lines = lines.iter().filter(|line| line.diverged == 0);

@@ -1,5 +1,5 @@
-//! How far the parameters may deviate before the loop with the observer may become unstable, and
-//! before learning may diverge from cycle to cycle.
+//! The deviations of the parameters up to which the loop with the observer is proved stable, and
+//! learning is proved to converge.
 
 use super::data_sheet::{nominal, shown};
 use super::lineup::{Laws, GAIT, RATE};
@@ -9,31 +9,31 @@ use bowden_bound::{Interval, IterativeLearningConvergence, ObserverStability, Pl
 use bowden_rig::RigConfig;
 use serde::Serialize;
 
-/// The greatest share by which all numbers of the plant may be off at once, with the loop shown to
-/// be stable, or its learning to converge, for every one of them.
+/// The largest share by which all parameters of the plant may deviate at once, with the loop proved
+/// stable, or its learning proved to converge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {
-    /// The law that it is of.
+    /// The control law.
     pub law: &'static str,
     /// `stability` or `convergence`.
     pub kind: &'static str,
-    /// Of gain, damping ratio, c/K of the joint and latency; of wn half of it. Rounded down to
-    /// 0.001, of the learning to 0.01.
+    /// Tolerance of gain, damping ratio, c/K of the joint and latency, and twice the tolerance of
+    /// wn. Rounded down to 0.001, for the learning to 0.01.
     pub share: Option<f64>,
-    /// Why there is none.
+    /// The reason why there is none.
     pub refused: Option<String>,
-    /// The plant in the middle.
+    /// The plant at the centre.
     pub plant: Middle,
-    /// What the user must check.
+    /// The assumptions that the user must check.
     pub assumptions: &'static [&'static str],
 }
 
-/// A plant as the rig's data sheet has it.
+/// The nominal plant of the rig.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Middle {
-    /// alpha \[N·m/unit\], that of a cable without hysteresis.
+    /// alpha \[N·m/unit\] of a cable without hysteresis.
     pub gain: f64,
-    /// Least and greatest slope of the cable, as a share of B.
+    /// Smallest and largest slope of the cable, as a share of B.
     pub slopes: [f64; 2],
     /// wn \[rad/s\].
     pub natural_frequency: f64,
@@ -41,14 +41,14 @@ pub struct Middle {
     pub damping_ratio: f64,
     /// c/K of the joint \[s\].
     pub joint: f64,
-    /// From command to what is measured \[s\].
+    /// Time from a command to its effect in the measurement \[s\].
     pub latency: f64,
 }
 
-/// Steps of the share that is told of a stability, from 0 to 1.
+/// Number of steps from 0 to 1 to which a tolerance is rounded.
 const STEPS: u32 = 1000;
 
-/// What a cycle leaves of what is yet to be learned of a tone, at most.
+/// Largest factor by which the learning error of a tone changes per cycle.
 const FACTOR: f64 = 0.99;
 
 /// By how much a cycle may be longer or shorter than the gait's, as a share.
@@ -105,10 +105,10 @@ impl Middle {
     }
 }
 
-/// The tolerance of the setup's PI with its observer, about the numbers of its rig.
+/// The tolerance of the setup's PI with its observer, around the parameters of its rig.
 ///
 /// # Errors
-/// One sentence where the core refuses the gains or the rig's numbers.
+/// A message if the core refuses the gains or the rig's parameters.
 pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
     let laws = laws(setup)?;
     let plant = middle(setup, laws.observer.latency())?;
@@ -127,7 +127,8 @@ pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
     })
 }
 
-/// The same of the setup's PI with its learning, over a gait whose cycle is a tenth longer or shorter.
+/// The same for the setup's PI with its learning, over a gait with a cycle up to a tenth longer or
+/// shorter.
 ///
 /// # Errors
 /// As [`tolerance`].
@@ -163,7 +164,7 @@ fn middle(setup: &Setup, latency: f64) -> Result<Middle, String> {
     Middle::of(&setup.rig, latency).map_err(|e| format!("[rig]: {e}"))
 }
 
-/// The greatest share that is shown, or why the rig's own plant is not.
+/// The largest proved share, or the reason why there is no proof for the rig's own plant.
 fn found<S: Fn(f64) -> Result<(), Error>>(
     shown: S,
     most: fn(&S) -> f64,
@@ -174,8 +175,8 @@ fn found<S: Fn(f64) -> Result<(), Error>>(
     }
 }
 
-/// Least and greatest slope of the torque over the input torque, as a share of B: along a path
-/// `d eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and `rho·(1 + (2·sigma − 1)·|eta|^n)` towards
+/// Smallest and largest slope of the torque over the input torque, as a share of B: along a path `d
+/// eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and `rho·(1 + (2·sigma − 1)·|eta|^n)` towards
 /// it, so between `rho·min(0, 2·sigma)` and `rho·max(1, 2·sigma)`.
 fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     let share = rig.kappa_eta * rig.rho / rig.b;
@@ -184,7 +185,8 @@ fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The greatest share that is shown: of a wider range nothing more can be, so halving finds it.
+/// The largest proved share. A proof for a range also covers each smaller range, so bisection finds
+/// it.
 fn most<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
     let share = |step: u32| f64::from(step) / f64::from(STEPS);
     let (mut good, mut bad) = (0, STEPS);

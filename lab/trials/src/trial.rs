@@ -10,10 +10,10 @@ use bowden::control::{
 use bowden::{model::Term, Error};
 use bowden_rig::{Reference, Rig, RigConfig, RigSample};
 
-/// Most undeclared effects in the rig.
+/// Maximum number of undeclared effects in the rig.
 pub const MOST_UNDECLARED: usize = 4;
 
-/// Where the steady part begins \[s\]; the paper's Figure 9 shows what comes before.
+/// Start of the steady part \[s\]; the paper's Figure 9 shows the time before.
 pub const TRANSIENT: f64 = 12.0;
 
 /// The law of a controller.
@@ -23,7 +23,7 @@ pub const TRANSIENT: f64 = 12.0;
 pub enum Law {
     /// PI, PID or PIV.
     Pid(Pid<f64>),
-    /// The adaptive law; the third regressor is what the bench has found, or nothing.
+    /// The adaptive law; the third regressor is the found effect, or none.
     Adaptive(ThreeRegressors),
 }
 
@@ -37,30 +37,31 @@ impl Law {
     }
 }
 
-/// The adaptive law over velocity, acceleration and what was found.
+/// The adaptive law over velocity, acceleration and the found effect.
 pub type ThreeRegressors = Adaptive<f64, 3>;
 
-/// A controller as it runs on the rig.
+/// A controller on the rig.
 #[derive(Debug, Clone)]
 pub struct Controller {
-    /// What it is called in tables and in JSON.
+    /// Its name in tables and in JSON.
     pub name: String,
     /// Its law.
     pub law: Law,
     /// Steps a second \[Hz\].
     pub rate: f64,
-    /// The law is called on every Nth step, N being this number; between them its command stays.
+    /// The law is called on every Nth step, where N is this number; its command is held in between.
     pub every: usize,
-    /// Added to its command.
+    /// Feed-forward, added to the command.
     pub feed: Option<FeedForward>,
-    /// A disturbance observer, with the feed-forward of its nominal plant; both are added as well.
+    /// A disturbance observer, with the feed-forward of its nominal plant; both are added to the
+    /// command.
     pub observer: Option<DisturbanceObserver<f64>>,
-    /// Learning over the reference's cycle, likewise.
+    /// Learning over the reference's cycle, also added to the command.
     pub learned: Option<Learned>,
     /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
     /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
     pub own_share: f64,
-    /// What the third regressor reads: the found effects along the reference.
+    /// The third regressor: the found effects along the reference.
     pub regressor: Option<FeedForward>,
 }
 
@@ -82,18 +83,18 @@ impl Controller {
     }
 }
 
-/// What a trial is run under.
+/// The conditions of a trial.
 #[derive(Debug, Clone)]
 pub struct Conditions {
     /// The rig's numbers.
     pub rig: RigConfig<f64>,
-    /// What is switched on in it without the controllers' knowledge.
+    /// The undeclared effects of the rig.
     pub undeclared: Vec<Term<f64>>,
-    /// What is to be followed.
+    /// The reference.
     pub reference: Reference<f64>,
     /// Length \[s\].
     pub seconds: f64,
-    /// From where errors count \[s\].
+    /// Start of the time over which errors are computed \[s\].
     pub from: f64,
 }
 
@@ -108,24 +109,24 @@ pub struct Errors {
     pub peak: f64,
 }
 
-/// What one trial gave.
+/// The result of one trial.
 #[derive(Debug, Clone, Default)]
 pub struct Trial {
-    /// From `from` to the end.
+    /// Errors from `from` to the end.
     pub steady: Errors,
-    /// The first [`TRANSIENT`] seconds, or as many as there were.
+    /// Errors of the first [`TRANSIENT`] seconds, or of a shorter trial.
     pub transient: Errors,
-    /// Largest command \[units\], whole trial.
+    /// Largest command of the whole trial \[units\].
     pub command: f64,
     /// Total variation of the command \[units/s\] over the steady part.
     pub effort: f64,
     /// Changes of direction of the command \[1/s\] over the steady part.
     pub reversals: f64,
-    /// How much of the steady part the command is at a limit.
+    /// Share of the steady part in which the command is at a limit.
     pub at_limit: AtLimit,
-    /// When the loop ran away \[s\]; `None` where it did not.
+    /// Time at which the loop diverged \[s\]; `None` if it did not.
     pub ran_away: Option<f64>,
-    /// One row a sample, where it was asked for.
+    /// One row for each sample, if requested.
     pub trace: Vec<Row>,
 }
 
@@ -138,13 +139,13 @@ pub struct Row {
     pub reference: f64,
     /// Distal torque \[N·m\].
     pub tau_o: f64,
-    /// Distal torque as measured \[N·m\].
+    /// Measured distal torque \[N·m\].
     pub measured: f64,
     /// Proximal torque \[N·m\].
     pub tau_i: f64,
     /// Command \[units\].
     pub command: f64,
-    /// beta_hat, delta_hat, theta_hat: adaptive laws only.
+    /// beta_hat, delta_hat and theta_hat, for adaptive laws only.
     pub estimates: Option<[f64; 5]>,
 }
 
@@ -228,13 +229,13 @@ impl Sums {
     }
 }
 
-/// A loop whose error is beyond this \[N·m\] has run away: the rig's sensor ends at 100.
+/// A loop whose error is beyond this \[N·m\] has diverged: the rig's sensor ends at 100.
 const RUNAWAY: f64 = 1000.0;
 
 /// Runs one controller.
 ///
 /// # Errors
-/// What the core refuses of the rig's numbers.
+/// A number of the rig that the core refuses.
 pub fn run(
     controller: &Controller,
     conditions: &Conditions,

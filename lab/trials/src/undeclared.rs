@@ -7,10 +7,10 @@ use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity, CATALOGUE};
 use bowden::model::{Source, Term};
 use bowden_rig::{Reference, RigConfig};
 
-/// Contribution of an effect that is named without a strength \[N·m rms\].
+/// Contribution of an effect without a stated strength \[N·m rms\].
 ///
-/// A loop with the paper's gains bears no more of some: a viscous joint delays its own
-/// torque, and friction that falls with speed excites itself.
+/// With more of some effects, a loop with the paper's gains is unstable: a viscous joint delays its
+/// own torque, and friction that falls with speed excites itself.
 #[must_use]
 pub fn usual_strength(name: &str) -> f64 {
     match name {
@@ -20,12 +20,12 @@ pub fn usual_strength(name: &str) -> f64 {
     }
 }
 
-/// What `--effect` names: NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH.
+/// The argument of `--effect`: NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Undeclared {
     /// The effect's own name.
     pub name: String,
-    /// `phi_p`, `phi_d` or `tau_i`; where it is usual if `None`.
+    /// `phi_p`, `phi_d` or `tau_i`; the usual channel if `None`.
     pub channel: Option<String>,
     /// Contribution along the reference \[N·m rms\].
     pub strength: f64,
@@ -35,7 +35,7 @@ impl Undeclared {
     /// Reads the text of `--effect`.
     ///
     /// # Errors
-    /// One sentence that says what is needed.
+    /// A message with the allowed values.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (what, strength) = match text.split_once(':') {
             None => (text, None),
@@ -71,10 +71,10 @@ impl Undeclared {
         })
     }
 
-    /// The term on a rig that follows the reference.
+    /// The term, for a rig that follows the reference.
     ///
     /// # Errors
-    /// One sentence where the rig has no such channel, or nothing that moves the effect.
+    /// A message if the rig has no such channel, or if the effect is always zero.
     pub fn term(
         &self,
         rig: &RigConfig<f64>,
@@ -129,7 +129,7 @@ impl Undeclared {
     }
 }
 
-/// The pulley at the joint, where there is something to read.
+/// The pulley at the joint, if there is something to read.
 fn usual(name: &str) -> Option<Source> {
     match name {
         "temperature" | "crosstalk" | "stretch-linear" | "stretch-cubic" => None,

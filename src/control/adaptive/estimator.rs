@@ -22,9 +22,9 @@ pub enum Leakage<T> {
     },
     /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
     ///
-    /// The rate rises from zero at `bound` to `rate` at twice the bound. This leakage is the
-    /// switching sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It
-    /// causes no bias if the true value lies within the bound.
+    /// The rate rises from zero at `bound` to `rate` at twice the bound. This is the switching
+    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It causes no
+    /// bias if the true value lies within the bound.
     Switching {
         /// Leakage beyond twice the bound \[1/s\], not negative.
         rate: T,

@@ -13,13 +13,13 @@
 //! - The [first-order](Form::FirstOrder) form, for plants that respond within a sample, solves the
 //!   loop.
 //!
-//! Each form diverges on the plant of the other form (tests `control_adaptive`).
+//! On the plant of the other form, each form diverges (tests `control_adaptive`).
 //!
 //! **Bounds on the estimates.** The law clamps each estimate to its bounds (projection). If the
 //! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
-//! invariant holds for any measurement. The paper uses no bounds: [`AdaptiveSettings::paper`] has
-//! bounds as wide as the range of the float. The first-order form requires bounds above zero for
-//! beta_hat, and bounds not below zero for delta_hat.
+//! invariant holds for any measurement. The paper uses no bounds, so [`AdaptiveSettings::paper`]
+//! has bounds as wide as the range of the float. The first-order form requires bounds above zero
+//! for beta_hat, and bounds not below zero for delta_hat.
 
 mod estimator;
 #[cfg(feature = "serde")]
@@ -69,8 +69,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         &self.settings
     }
 
-    /// Longest `dt` \[s\] that a step accepts: `longest_dt` of the settings or, in the
-    /// first-order form, the [largest step](AdaptiveSettings::largest_step) if that is shorter.
+    /// Longest `dt` \[s\] that a step accepts.
+    ///
+    /// This is `longest_dt` of the settings or, in the first-order form, the [largest
+    /// step](AdaptiveSettings::largest_step), whichever is shorter.
     pub fn longest_dt(&self) -> T {
         self.longest
     }

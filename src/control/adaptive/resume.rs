@@ -12,10 +12,10 @@ const HALVINGS: (u32, u32) = (26, 56);
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// A state whose first step on `input` commands `output` \[command unit\].
     ///
-    /// The estimates are the initial ones. The accumulated error is chosen so that the law gives
-    /// `output`, feed-forward included. No such error exists if beta_hat is zero, z would leave its
-    /// bounds, the limits exclude `output`, or the sample is bad. In these cases only the slew-rate
-    /// limit or the lag softens the jump.
+    /// The estimates are the initial ones. The accumulated error is chosen so that the law, with
+    /// its feed-forward, commands `output`. No such error exists if beta_hat is zero, z would leave
+    /// its bounds, the limits exclude `output`, or the sample is bad. The command then jumps, and
+    /// only the slew-rate limit or the lag softens the jump.
     ///
     /// The state is new: it has no fault and no bad samples. For a running state use
     /// [`Adaptive::resume`].
@@ -79,8 +79,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Starts so that the next step on `input` commands `output` \[command unit\].
     ///
     /// Like [`AdaptiveState::resume_from`], but for a running state. An unusable sample counts as a
-    /// bad one, and a latched safe command stays latched. The fault counter is kept too, so a
-    /// restart after each bad sample does not prevent the safe command. `input.dt` is ignored.
+    /// bad one. A latched safe command stays latched, and the fault counter is kept, so a restart
+    /// after each bad sample does not prevent the safe command. `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

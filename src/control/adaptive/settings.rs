@@ -27,9 +27,8 @@ pub enum Form<T> {
     },
     /// The law solved for the error's rate: the command follows through a lag of 1/lambda.
     ///
-    /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that responds within a sample (a
-    /// stiff drive, a blocked joint) this form is (22) exactly. On a plant with inertia it
-    /// diverges.
+    /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that responds within a sample (a stiff
+    /// drive, a blocked joint), this form is exactly (22). On a plant with inertia it diverges.
     FirstOrder {
         /// Longest intended sample time \[s\].
         step: T,
@@ -95,8 +94,8 @@ pub struct AdaptiveSettings<T, const N: usize> {
     pub lambda: T,
     /// epsilon \[N·m\], above zero: width of the smooth sign.
     ///
-    /// With one sample of delay, choose at least a fortieth of the largest delta_hat.
-    /// Otherwise the command chatters.
+    /// With one sample of delay, choose at least a fortieth of the largest delta_hat; otherwise the
+    /// command chatters.
     pub epsilon: T,
     /// The smooth sign function.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -303,10 +302,11 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
 impl<T: Real> AdaptiveSettings<T, 2> {
     /// Table 2 of Nguyen et al. (2018), with the paper's initial estimates and no projection.
     ///
-    /// The form is as published. The filter of the error's rate, 5 ms, is not in the paper. The
-    /// regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley.
-    /// The estimate beta_hat starts at zero, the singular point of the loop, so the start-up
-    /// overshoots (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this overshoot.
+    /// The form is as published, with a filter of 5 ms for the error's rate, which the paper does
+    /// not specify. The regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the
+    /// proximal pulley. The estimate beta_hat starts at zero, the singular point of the loop, so
+    /// the start-up overshoots (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this
+    /// overshoot.
     ///
     /// ```
     /// use bowden::control::AdaptiveSettings;

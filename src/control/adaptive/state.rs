@@ -202,7 +202,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample then
+    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample
     /// continues from the safe command, with unchanged estimates.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
@@ -211,8 +211,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit and the first-order form then
-    /// continue from the applied command. At the next good sample z moves no further towards this
-    /// limit of the drive. The estimates do not change, as at a limit of the law itself. See
+    /// continue from the applied command. At the next good sample, z moves no further towards this
+    /// limit of the drive, and the estimates do not change, as at a limit of the law itself. See
     /// [`Applied`].
     pub fn applied(&mut self, applied: Applied<T>) {
         let out = self.held.command;
@@ -257,7 +257,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         self.held.command
     }
 
-    /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
+    /// The fault counter, see [`Fallback`](crate::control::Fallback).
     pub fn fault_counter(&self) -> u32 {
         self.held.score
     }

@@ -23,14 +23,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// would not hold.
     ///
     /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
-    /// does not move further towards that limit. The estimates do not change while s requires more
-    /// than the limit allows. z and the estimates therefore unwind at once.
+    /// does not move further towards that limit, and the estimates do not change while s requires
+    /// more than the limit allows. Both therefore unwind at once.
     ///
     /// A bad sample leaves the state unchanged and holds the last good command; see
-    /// [`control`](crate::control). A `dt` longer than [`longest_dt`](Self::longest_dt) is a bad
-    /// sample. So is a finite sample that is so large that the law overflows ([`Fault::Overflow`]).
-    /// The command is within the limits **for any state**, including a stored state and a state of
-    /// another law.
+    /// [`control`](crate::control). A sample is also bad if `dt` is longer than
+    /// [`longest_dt`](Self::longest_dt), or if it is so large that the law overflows
+    /// ([`Fault::Overflow`]). The command is within the limits **for any state**, including a
+    /// stored state and a state of another law.
     #[inline]
     pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         if state.held.may_step() {

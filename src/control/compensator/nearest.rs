@@ -46,10 +46,10 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor) still refers
     /// to the model's indices.
     ///
-    /// The price is an error: with this command, the true model does not give exactly the desired
-    /// output. To measure the error, run the feed-forward and the true model in series, as
-    /// `examples/nearest.rs` does. A model that is fitted within the bound has a smaller error than
-    /// one that is changed to meet the bound afterwards.
+    /// With this command, the true model does not produce exactly the desired output. To measure
+    /// the error, run the feed-forward and the true model in series, as `examples/nearest.rs` does.
+    /// A model that is fitted within the bound has a smaller error than one that is changed
+    /// afterwards to meet the bound.
     ///
     /// ```
     /// use bowden::control::Compensator;

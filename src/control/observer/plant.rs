@@ -57,7 +57,7 @@ crate::checked! {
 impl<T: Real> NominalPlant<T> {
     /// A plant from the drive's specification: the torque of one command unit at rest, inertia > 0
     /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\]. The stiffness is
-    /// the stiffness of cable and load in series.
+    /// that of cable and load in series.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the

@@ -70,8 +70,9 @@ impl<T: Real> DerivativeSource<T> {
 pub enum AntiWindup<T> {
     /// No anti-windup: the integral winds up.
     None,
-    /// The integral term stays within the range of the command. This range is widened to include
-    /// zero and the value that, with the other terms, fills the range.
+    /// The integral term stays within the range of the command.
+    ///
+    /// The range is widened to include zero and the value that, with the other terms, fills it.
     Clamp,
     /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
     ///
@@ -86,7 +87,7 @@ pub enum AntiWindup<T> {
     /// range.
     ///
     /// A change away from that limit acts in full, so the integral unwinds. The part that the
-    /// slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`. If the slew-rate limit
+    /// slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`: if the slew-rate limit
     /// counted as a range, the integral would stop while the command moves.
     Conditional,
 }
@@ -159,8 +160,8 @@ pub struct PidSettings<T> {
     pub integral_limit: Option<T>,
     /// The integral is frozen while `|e|` is at most this value, zero or above \[output unit\].
     ///
-    /// With static friction an integral winds up until the output jumps past the reference, and
-    /// the cycle repeats (hunting). A deadband wider than this jump prevents hunting.
+    /// With static friction, an integral winds up until the output jumps past the reference, and
+    /// the cycle repeats (hunting). A deadband that is wider than this jump prevents hunting.
     #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
     pub deadband: T,
     /// Period of an output that wraps, above zero \[output unit\], such as 360°.

@@ -90,8 +90,8 @@ impl<T: Real> Last<T> {
 impl<T: Real> PidState<T> {
     /// A new state, before the first sample; its command is zero.
     ///
-    /// A slew-rate limit starts from this zero. Use [`PidState::resume_from`] if another command is
-    /// applied.
+    /// A slew-rate limit starts from this zero, so use [`PidState::resume_from`] if another command
+    /// is applied.
     pub const fn new() -> Self {
         Self {
             integral: Compensated::new(T::ZERO),
@@ -111,8 +111,8 @@ impl<T: Real> PidState<T> {
     /// ignored. [`AntiWindup::Clamp`](super::AntiWindup::Clamp) limits this integral.
     ///
     /// A number that is not finite, or an overflow, leaves the state unchanged except for the count
-    /// of bad samples, and returns a fault. A latched safe command stays latched. The fault counter
-    /// is kept too, so a restart after each bad sample does not prevent the safe command.
+    /// of bad samples, and returns a fault. A latched safe command stays latched, and the fault
+    /// counter is kept, so a restart after each bad sample does not prevent the safe command.
     ///
     /// The integral absorbs the difference between `output` and the other terms at `at`. A law
     /// without `k_i` returns this difference to zero: see
@@ -160,9 +160,9 @@ impl<T: Real> PidState<T> {
 
     /// Clears the integral, the rate and the samples; keeps the applied command.
     ///
-    /// A slew-rate limit continues from the applied command, and a latched safe command stays
-    /// latched. The fault counter is kept too, so a reset at each bad sample does not prevent the
-    /// safe command. For a state without a command, assign [`PidState::new`].
+    /// A slew-rate limit continues from the applied command. A latched safe command stays latched,
+    /// and the fault counter is kept, so a reset at each bad sample does not prevent the safe
+    /// command. For a state without a command, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
             held: self.held,
@@ -211,7 +211,7 @@ impl<T: Real> PidState<T> {
         self.rate
     }
 
-    /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
+    /// The fault counter, see [`Fallback`](crate::control::Fallback).
     pub fn fault_counter(&self) -> u32 {
         self.held.score
     }

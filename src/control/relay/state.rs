@@ -161,7 +161,7 @@ impl<T: Real> RelayState<T> {
         self.remaining
     }
 
-    /// Score of the bad samples, see [`Fallback`](crate::control::Fallback).
+    /// The fault counter, see [`Fallback`](crate::control::Fallback).
     pub const fn fault_counter(&self) -> u32 {
         self.held.score
     }

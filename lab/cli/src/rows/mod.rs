@@ -44,12 +44,12 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Whether rows are asked for, and not a ledger.
+    /// Whether rows are requested instead of a results table.
     pub fn is_wanted(&self) -> bool {
         self.glob.is_some() || self.row.is_some()
     }
 
-    /// Whether nothing here is given that `--glob` alone reads. The parser does not ask for an
+    /// Checks that no option is given that only `--glob` reads. The parser does not ask for an
     /// option that another argument excludes, as a record excludes `--glob`.
     pub fn check_unused(&self) -> Result<(), Failure> {
         if let Some(out) = &self.out {
@@ -66,7 +66,7 @@ impl Rows {
         }
     }
 
-    /// Closes the one record or all of them.
+    /// Identifies a model from one record or from each of many.
     pub fn run(&self, asked: &Asked) -> Result<(), Failure> {
         if let Some(file) = &self.row {
             return crate::say(&one(file, asked).json()?);
@@ -157,7 +157,7 @@ fn all(files: &[PathBuf], workers: Option<NonZeroUsize>) -> Result<Vec<Row>, Fai
     Ok(rows.into_iter().map(|(_, row)| row).collect())
 }
 
-/// The row of a record from a process of its own: this command with `--row`.
+/// The row of a record from a separate process: this command with `--row`.
 fn in_a_process(program: &Path, file: &Path) -> Row {
     let name = file.to_string_lossy();
     let mut asked = OsString::from("--row=");

@@ -1,27 +1,27 @@
-//! One row: the fields that are kept of a record, from its JSON.
+//! One row: fields from the JSON of a record.
 
 use bowden_lab::facts::RecordError;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// A row; a column of the table is named as a field. No times: the same records give the same
-/// bytes.
+/// A row; the columns of the table have the names of the fields. A row contains no times, so the
+/// same records give the same bytes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
-    /// As it was given.
+    /// The path, as given.
     pub file: String,
     /// `ok` or `error`.
     pub status: String,
-    /// Why it could not be closed.
+    /// The error, if identification failed.
     pub error: Option<String>,
-    /// Where in the file, from 1; of a binary file the row.
+    /// Line in the file, from 1; for a binary file, the row.
     pub line: Option<i64>,
-    /// Which column of the file.
+    /// Column of the file.
     pub column: Option<String>,
     pub verdict: Option<String>,
-    /// As `friction@x`, the largest share first.
+    /// Mechanisms such as `friction@x`, the largest share first.
     pub mechanisms: Option<Vec<String>>,
-    /// Of the delivered rounds; none in a row with an error.
+    /// Names of the delivered terms; empty in a row with an error.
     pub names: Option<Vec<String>>,
     pub confidences: Option<Vec<String>>,
     /// Root mean square errors \[unit of the output\].
@@ -39,7 +39,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row of a record that could not be closed.
+    /// The row of a record whose identification failed.
     pub fn failed(file: &str, message: String) -> Self {
         Self {
             file: file.to_owned(),
@@ -58,7 +58,7 @@ impl Row {
         }
     }
 
-    /// The row of what `identify --json` prints.
+    /// The row from the output of `identify --json`.
     pub fn of_json(file: &str, text: &str) -> Result<Self, String> {
         let report: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
         let at = |path: &str| report.pointer(path);

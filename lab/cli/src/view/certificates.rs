@@ -1,4 +1,4 @@
-//! The bounds of `bowden certify`, for people and as JSON.
+//! The bounds of `bowden certify`, as text and as JSON.
 
 use super::layout::{block, heading, prose, Columns, Width};
 use anstyle::AnsiColor;
@@ -25,7 +25,7 @@ pub fn json(all: &Certified) -> String {
 /// Kinds of bounds in the order of the text.
 const ORDER: [&str; 4] = ["rms", "peak-sampled", "rms-sampled", "peak-continuous"];
 
-/// For people: the bound of the law as given first, then the others; vacuous ones last.
+/// The text: the bound of the given law first, then the others, vacuous bounds last.
 #[must_use]
 pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -> String {
     let lines = &all.certificates;
@@ -153,7 +153,7 @@ fn assumptions(out: &mut String, all: &Certified, width: Width) {
     }
 }
 
-/// How far the plant may be off until something is no longer so.
+/// The tolerance of the plant within which a property is proved.
 fn within(tolerance: &Tolerance, what: &str) -> String {
     let told = match (tolerance.share, &tolerance.refused) {
         (Some(share), _) if share <= 0.0 => {

@@ -1,4 +1,4 @@
-//! `bowden validate` for programs, schema `bowden.validate/1`, and for people.
+//! `bowden validate` as JSON, schema `bowden.validate/1`, and as text.
 
 use super::layout::{block, heading, prose, Columns, Width};
 use super::several::size;
@@ -65,10 +65,10 @@ struct DependsOn<'a> {
     p: Option<f64>,
 }
 
-/// The check as one line of JSON.
+/// The validation as one line of JSON.
 ///
 /// # Errors
-/// If a number cannot be written, which no check has.
+/// If a number is not finite, which does not occur in a validation.
 pub fn check_json(
     model: &str,
     path: &str,
@@ -130,7 +130,7 @@ macro_rules! line {
     };
 }
 
-/// The validation for people, with ANSI styles that the caller may strip: the answer first.
+/// The validation as text, with ANSI styles that the caller may strip: the answer first.
 #[must_use]
 pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> String {
     let record = &check.record;

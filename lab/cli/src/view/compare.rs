@@ -10,7 +10,7 @@ use bowden_trials::facts::{
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
-/// The comparison for people: the answer first.
+/// The comparison as text: the answer first.
 #[must_use]
 pub fn text(compared: &Compared, width: Width, verbose: bool) -> String {
     let heading = &compared.heading;
@@ -29,8 +29,7 @@ pub fn json(compared: &Compared) -> String {
     }
 }
 
-/// "ran away at 0.31 s", instead of errors that were summed over a part of the trial;
-/// `None` if no trial ran away.
+/// "ran away at 0.31 s", instead of errors over part of a trial; `None` if no trial diverged.
 fn ran_away(line: &Line, seeds: usize) -> Option<String> {
     let at = line.ran_away?;
     let share = match seeds {
@@ -70,8 +69,8 @@ fn lineup_text(heading: &Heading, lineup: &Lineup, width: Width, verbose: bool) 
     out
 }
 
-/// The controller with the smallest error, what it knows of the plant, and the best one that knows
-/// nothing of it.
+/// The controller with the smallest error and its plant model, and the best one without a plant
+/// model.
 fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
     let subject = match &heading.model {
         Some(model) => format!("simulated reference rig with the transmission of {model}"),

@@ -9,7 +9,7 @@ use serde_json::{json, Value};
 /// Maximum number of listed bench records; `--verbose` and the JSON have all.
 const LISTED: usize = 4;
 
-/// "0.123", or when the loop ran away.
+/// "0.123", or the time at which the loop diverged.
 fn error(line: &Line) -> String {
     match line.ran_away {
         None => format!("{:.4}", line.rmse_true.mean),
@@ -159,7 +159,8 @@ pub(super) fn json(heading: &Heading, found: &Found) -> String {
     .to_string()
 }
 
-/// Three rows a controller: without a model, with the declared one, with what was found.
+/// Three rows for each controller: without a model, with the baseline model, and with the found
+/// terms.
 fn rows(outcome: &Outcome) -> impl Iterator<Item = Value> + '_ {
     outcome.pairs.iter().flat_map(|pair| {
         let named = |line: &Line, how: &str| {

@@ -1,4 +1,4 @@
-//! The unmodelled curve, for programs and for people.
+//! The unmodelled curve, as JSON and as text.
 
 use super::layout::{block, Report};
 use super::words::in_brackets;
@@ -39,7 +39,7 @@ impl<'a> UnknownPart<'a> {
     }
 }
 
-/// The section of the ledger; empty if there is no such curve.
+/// The section of the results table; empty if there is no such curve.
 pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
     let unknown = facts.unknown.as_ref()?;
     let knots = &unknown.curve;

@@ -8,7 +8,7 @@ use serde_json::{json, Value};
 /// Schema `bowden.design/1`.
 ///
 /// # Errors
-/// Where a number cannot be written, which no design has.
+/// If a number is not finite, which does not occur in a design.
 pub fn json(designed: &Designed) -> Result<String, serde_json::Error> {
     let mut all = serde_json::to_value(designed)?;
     all["schema"] = json!("bowden.design/1");
@@ -19,7 +19,7 @@ pub fn json(designed: &Designed) -> Result<String, serde_json::Error> {
     Ok(all.to_string())
 }
 
-/// For people: the gains first.
+/// The text: the gains first.
 #[must_use]
 pub fn text(designed: &Designed, width: Width, verbose: bool) -> String {
     let mut out = String::new();
@@ -196,7 +196,7 @@ fn adaptive(own: &AdaptiveDesign) -> Vec<String> {
     ]
 }
 
-/// The bound of the error, and of which references.
+/// The bound of the error, and the references for which it holds.
 fn certificate(own: &AdaptiveDesign, bound: f64) -> String {
     let bound = above(bound);
     match own.plant.filter(|_| own.proved) {

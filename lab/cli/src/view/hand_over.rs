@@ -10,7 +10,7 @@ use std::borrow::Cow;
 /// The part of the JSON's `final` that is about the model of `--model-out`.
 #[derive(Serialize)]
 pub(super) struct HandOverPart<'a> {
-    /// Errors sample by sample with causal rates; `null` if nothing can be handed over.
+    /// Errors sample by sample with causal rates; `null` if no model can be exported.
     causal_nrmse: Option<Segments>,
     feed_forward: Cow<'a, FeedForward>,
     exported_model: Option<ExportedModel<'a>>,

@@ -34,7 +34,7 @@ struct Report<'a> {
     redundant: &'a [Unneeded],
     unknown: Option<UnknownPart<'a>>,
     noise_floor: f64,
-    /// The noise floor over what is held out.
+    /// The noise floor of the held-out data.
     #[serde(skip_serializing_if = "Option::is_none")]
     held_out_floor: Option<f64>,
     /// Standard deviation of the filtered output on each segment.
@@ -90,7 +90,7 @@ struct ByFile<'a> {
 #[derive(Serialize)]
 struct FinalPart<'a> {
     effects: &'a [String],
-    /// Whether the parameters have seen the stop-check segment as well.
+    /// Whether the parameters were fitted to the selection segment too.
     refitted: bool,
     parameters: &'a [Parameter],
     rmse: Segments,
@@ -273,7 +273,7 @@ impl<'a> From<&'a RejectedFacts> for RejectedPart<'a> {
 /// The facts and the cost of the run as one line of JSON.
 ///
 /// # Errors
-/// If a number is not finite, which no fitted model has.
+/// If a number is not finite, which does not occur in a fitted model.
 pub fn json(facts: &Facts, cost: Option<&CostFacts>) -> Result<String, serde_json::Error> {
     let several = facts.record.files.len() > 1;
     serde_json::to_string(&Report {

@@ -1,4 +1,4 @@
-//! How text is laid out: blocks with a label, wrapped prose, tables that drop columns.
+//! Layout of text: blocks with a label, wrapped prose, tables that drop columns.
 
 use anstyle::{AnsiColor, Style};
 #[cfg(not(target_family = "wasm"))]
@@ -11,12 +11,12 @@ const LABEL: usize = 8;
 /// Most columns of prose: longer lines are hard to read.
 const MOST: usize = 100;
 
-/// The width to lay out for; `None` wraps nothing and drops no column, as for a pipe.
+/// The width of the layout; `None`, as for a pipe, wraps nothing and drops no column.
 #[derive(Debug, Clone, Copy)]
 pub struct Width(Option<usize>);
 
 impl Width {
-    /// A terminal of so many columns.
+    /// A terminal with this number of columns.
     #[must_use]
     pub fn of(columns: u16) -> Self {
         Self(Some(usize::from(columns).min(MOST)))
@@ -50,12 +50,13 @@ impl Width {
     }
 }
 
-/// How a run is reported.
+/// The form of a report.
 #[derive(Debug, Clone, Copy)]
 pub struct Report {
-    /// The width to lay out for.
+    /// The width of the layout.
     pub width: Width,
-    /// With the tests of each term, rejected terms and the experiments that separate alternatives.
+    /// Whether to include the tests of each term, rejected terms and the experiments that separate
+    /// alternatives.
     pub verbose: bool,
     /// Whether the user has chosen the cut-off frequency.
     pub chosen_cutoff: bool,

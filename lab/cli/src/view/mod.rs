@@ -1,4 +1,4 @@
-//! Reports of a run: JSON for programs, tables for people.
+//! Reports of a run, as JSON and as text.
 
 mod braille;
 pub mod certificates;

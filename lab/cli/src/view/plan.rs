@@ -1,10 +1,10 @@
-//! The answer of `bowden plan`, for people.
+//! The text of `bowden plan`.
 
 use super::layout::{block, heading, prose, Width};
 use anstyle::AnsiColor;
 use bowden_lab::facts::{Plan, Planned};
 
-/// The planned motion and its purpose, or why no motion is planned. The CSV is not in it.
+/// The planned motion and its purpose, or the reason why no motion is planned, without the CSV.
 #[must_use]
 pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     let mut out = String::new();

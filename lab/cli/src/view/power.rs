@@ -1,4 +1,4 @@
-//! The table of `bowden power`, for people and as JSON, schema `bowden.power/1`.
+//! The table of `bowden power`, as text and as JSON, schema `bowden.power/1`.
 
 use super::layout::{block, heading, prose, Columns, Width, NONE};
 use super::words::in_brackets;
@@ -103,7 +103,7 @@ fn part<'a>(record: &RecordFacts, row: &'a PowerRow) -> Part<'a> {
 /// The table as one line of JSON.
 ///
 /// # Errors
-/// If a number is not finite, which no row has.
+/// If a number is not finite, which does not occur in a row.
 pub fn power_json(power: &PowerFacts) -> Result<String, serde_json::Error> {
     let record = &power.record;
     serde_json::to_string(&Whole {
@@ -132,7 +132,7 @@ fn amplitude(row: &PowerRow) -> Option<f64> {
     }
 }
 
-/// For people: which effects the search finds, and from which amplitude on.
+/// The text: the effects that the search finds, and the smallest amplitude of each.
 #[must_use]
 pub fn power_text(power: &PowerFacts, width: Width, verbose: bool) -> String {
     let mut out = String::new();

@@ -12,12 +12,12 @@ const AT_THE_LIMIT: &str = "Within the bounds of the proof the law may demand co
 /// Schema `bowden.certificate/1`.
 ///
 /// # Errors
-/// None that serde does not have.
+/// Only errors of serde.
 pub fn json(proof: &Proof) -> Result<String, serde_json::Error> {
     serde_json::to_string(proof)
 }
 
-/// For people: the bound, or what would make it provable.
+/// The text: the bound, or a change that would make it provable.
 #[must_use]
 pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
     let mut out = String::new();

@@ -82,8 +82,8 @@ pub(super) fn errors(facts: &Facts) -> String {
     out + "\n"
 }
 
-/// What each file says by itself of the missing mechanisms, and the files in which a term does not lower
-/// the error; empty for a single record.
+/// The mechanisms that each file supports alone, and the files in which a term does not lower the
+/// error; empty for a single record.
 pub(super) fn alone(facts: &Facts, width: Width) -> String {
     let mut out = String::new();
     let lines = across(&facts.lacks, &facts.files_alone)

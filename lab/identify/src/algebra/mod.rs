@@ -3,7 +3,7 @@
 //! | question | answer |
 //! |---|---|
 //! | What of a column lies outside a set of columns, and the gains of the set | [`Span`], [`take_off`] |
-//! | The least-norm solution of a system, whatever its rank | [`least_norm`] |
+//! | The least-norm solution of a system of any rank | [`least_norm`] |
 //! | The inverse of a positive definite matrix, and a root of that | [`inverse`], [`whitening`] |
 //! | The directions in which a positive semi-definite matrix has a size | [`directions`] |
 //! | The line through points | [`line`] |

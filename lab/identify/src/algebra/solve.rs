@@ -2,9 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// Least-squares solution of `a·x = b`, of all such the one of least norm. Singular values up
-/// to `tolerance` count as zero: `a` should have columns of about unit size. `None` where the
-/// tolerance is negative.
+/// Least-squares solution of `a·x = b`, with the smallest norm. Singular values up to `tolerance`
+/// count as zero: `a` should have columns of about unit size. `None` if the tolerance is negative.
 pub(crate) fn least_norm(
     a: DMatrix<f64>,
     b: &DVector<f64>,
@@ -13,13 +12,13 @@ pub(crate) fn least_norm(
     a.svd(true, true).solve(b, tolerance).ok()
 }
 
-/// Inverse of a symmetric positive definite matrix; `None` where it is not definite.
+/// Inverse of a symmetric positive definite matrix; `None` if it is not definite.
 pub(crate) fn inverse(gram: DMatrix<f64>) -> Option<DMatrix<f64>> {
     gram.cholesky().map(|factor| factor.inverse())
 }
 
 /// A matrix `w` for which `w·gram·wᵀ` is the identity: it makes columns with these products
-/// orthonormal. `None` where `gram` is not positive definite.
+/// orthonormal. `None` if `gram` is not positive definite.
 pub(crate) fn whitening(gram: DMatrix<f64>) -> Option<DMatrix<f64>> {
     gram.cholesky()?.l().try_inverse()
 }

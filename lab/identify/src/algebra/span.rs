@@ -28,8 +28,8 @@ impl Default for Span {
 }
 
 impl Span {
-    /// Of no columns yet. One of which at most this share of its norm is left beside the
-    /// others will count as a sum of them.
+    /// An empty span. A column with at most this share of its norm outside the span counts as
+    /// dependent.
     pub(crate) fn with_tolerance(dependent: f64) -> Self {
         Self {
             dependent,
@@ -71,8 +71,8 @@ impl Span {
         DVector::from_column_slice(left.values())
     }
 
-    /// The column without its part in the span, taken off once: it does for a column of which
-    /// enough is left.
+    /// The column without its part in the span, projected once, which is sufficient if enough of
+    /// the column remains.
     pub(crate) fn once_off(&self, mut column: Stretch) -> Stretch {
         let parts: Vec<f64> = self.basis.iter().map(|q| q.dot(&column)).collect();
         for (part, q) in parts.into_iter().zip(&self.basis) {
@@ -109,15 +109,15 @@ impl Span {
     }
 }
 
-/// Takes off a column its part in the columns of an orthonormal matrix. Once: it does for a
-/// column of which enough is left.
+/// Removes from a column its part in the columns of an orthonormal matrix. One projection is
+/// sufficient if enough of the column remains.
 pub(crate) fn take_off(basis: &DMatrix<f64>, column: &mut DVector<f64>) {
     let parts = basis.tr_mul(column);
     column.gemv(-1.0, basis, &parts, 1.0);
 }
 
-/// Correlation of a column with its best imitation by a span, from the norms of the column and
-/// of what the span leaves of it.
+/// Correlation of a column with its best imitation by a span, from the norms of the column and of
+/// its part outside the span.
 pub(crate) fn imitated(whole: f64, rest: f64) -> f64 {
     (1.0 - (rest / whole).powi(2)).max(0.0).sqrt()
 }

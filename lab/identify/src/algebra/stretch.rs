@@ -83,18 +83,18 @@ impl Stretch {
         &self.values
     }
 
-    /// The same, taken out.
+    /// Takes the values out.
     #[must_use]
     pub fn into_values(self) -> Vec<f64> {
         self.values
     }
 
-    /// The values on [`range`](Self::range), to be changed.
+    /// The values on [`range`](Self::range), mutable.
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
     }
 
-    /// The values on some samples within [`range`](Self::range); none where they are not.
+    /// The values on some samples within [`range`](Self::range); empty if the samples are outside.
     #[must_use]
     pub fn on(&self, samples: &Range<usize>) -> &[f64] {
         let begin = samples.start.wrapping_sub(self.start);
@@ -102,7 +102,7 @@ impl Stretch {
         self.values.get(begin..end).unwrap_or(&[])
     }
 
-    /// All values of a grid of so many samples.
+    /// All values of a grid with this number of samples.
     #[must_use]
     pub fn whole(&self, samples: usize) -> Cow<'_, [f64]> {
         match self.values.len() == samples {
@@ -120,7 +120,7 @@ impl Stretch {
         }
     }
 
-    /// Adds it, times a factor, to a column of the whole grid.
+    /// Adds the stretch, times a factor, to a column of the whole grid.
     pub fn add_to(&self, sum: &mut [f64], factor: f64) {
         let own = sum.get_mut(self.range()).unwrap_or_default();
         for (slot, v) in own.iter_mut().zip(&self.values) {
@@ -128,7 +128,7 @@ impl Stretch {
         }
     }
 
-    /// Adds another one, times a factor; the stretch grows where the other one goes beyond it.
+    /// Adds another stretch, times a factor; the result covers both.
     pub fn add(&mut self, other: &Self, factor: f64) {
         if other.values.is_empty() {
             return;

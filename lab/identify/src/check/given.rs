@@ -15,55 +15,55 @@ const SCHEMA: &str = "bowden.model/1";
 pub struct Given {
     /// The model, without the terms that belong to the record it came from.
     pub file: ModelFile,
-    /// Names of the terms that were left out for that reason.
+    /// Names of the terms that are excluded for this reason.
     pub left_out: Vec<String>,
-    /// Where the model came from.
+    /// The origin of the model.
     pub about: About,
 }
 
-/// What a model file says of the record that the model came from; all of it may be missing.
+/// The statements of a model file about its record; each may be missing.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub struct About {
-    /// Cut-off of the filter behind which the model was fitted \[Hz\].
+    /// Cut-off of the filter of the fit \[Hz\].
     pub cutoff_hz: Option<f64>,
     /// Sampling rate of the record \[Hz\].
     pub rate_hz: Option<f64>,
     /// Units by name: `input`, `output`, and the channels.
     #[serde(default)]
     pub units: BTreeMap<String, String>,
-    /// How channels are computed, by name, where they are sums or differences of others.
+    /// Definitions of channels that are sums or differences of others, by name.
     #[serde(default)]
     pub definitions: BTreeMap<String, String>,
-    /// What the record has covered, by name: `input`, and the channels.
+    /// Ranges of the record, by name: `input`, and the channels.
     #[serde(default)]
     pub ranges: BTreeMap<String, Seen>,
     /// Errors of the model as shares of the output's standard deviation.
     pub nrmse: Option<Errors>,
-    /// Its error on what was held out, in the output's unit.
+    /// Held-out error, in the output's unit.
     pub held_out_rmse: Option<f64>,
-    /// The verdict with which it was written.
+    /// The verdict on the model's record.
     pub verdict: Option<String>,
 }
 
-/// What a record has covered of one motion.
+/// The ranges of one motion in a record.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub struct Seen {
-    /// Least and greatest position, in the source's unit.
+    /// Smallest and largest position, in the source's unit.
     pub position: Option<[f64; 2]>,
-    /// Least and greatest velocity, in the source's unit per second.
+    /// Smallest and largest velocity, in the source's unit per second.
     pub velocity: Option<[f64; 2]>,
-    /// Least and greatest acceleration, in the source's unit per second squared.
+    /// Smallest and largest acceleration, in the source's unit per second squared.
     pub acceleration: Option<[f64; 2]>,
 }
 
-/// Errors on the segments of the record that the model came from.
+/// Errors on the segments of the model's record.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, serde::Serialize)]
 pub struct Errors {
-    /// On what was fitted.
+    /// On the fit segment.
     pub fit: Option<f64>,
-    /// On the stop-check.
+    /// On the selection segment.
     pub selection: Option<f64>,
-    /// On what nothing had seen.
+    /// On the held-out segment.
     pub held_out: Option<f64>,
 }
 
@@ -71,7 +71,7 @@ impl Given {
     /// Reads a model file.
     ///
     /// # Errors
-    /// One line where the text is no TOML, no model of this schema, or a model that the core
+    /// A message if the text is not TOML, not a model of this schema, or a model that the core
     /// refuses.
     pub fn parse(text: &str) -> Result<Self, String> {
         let one_line = |e: toml::de::Error| one_line(&e.to_string());
@@ -119,7 +119,7 @@ impl Given {
     /// The mode of the model.
     ///
     /// # Errors
-    /// One sentence where it is none.
+    /// A message if the mode is invalid.
     pub fn mode(&self) -> Result<Mode, String> {
         match self.file.mode.as_str() {
             "torque" => Ok(Mode::Torque),
@@ -128,7 +128,7 @@ impl Given {
         }
     }
 
-    /// The channels that the model reads: a record has to have them.
+    /// The channels that the model reads, which a record must contain.
     #[must_use]
     pub fn reads(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
@@ -153,9 +153,9 @@ pub(super) struct Reads {
 }
 
 impl Given {
-    /// What the model reads of the input (`input`) or of a channel. What acts in time, such as
-    /// creep, depends on the velocity of what it reads; a lag and a delay, which read the whole
-    /// output, depend on the velocity of everything whose position is read.
+    /// The quantities of the input (`input`) or of a channel that the model reads. An effect that
+    /// acts in time, such as creep, depends on the velocity of its source; a lag and a delay, which
+    /// read the whole output, depend on the velocity of every source whose position is read.
     pub(super) fn reads_of(&self, channel: &str) -> Reads {
         let load = match self.file.channels.iter().any(|c| c == "load") {
             true => "load",
@@ -200,7 +200,7 @@ fn of_the_record(name: &str) -> bool {
     info(name).is_some_and(|info| counts_from_the_start(info.family))
 }
 
-/// The message of the TOML reader without its drawing of the line.
+/// The message of the TOML reader without its copy of the line.
 pub fn one_line(text: &str) -> String {
     let lines = text.lines().map(str::trim);
     let told: Vec<&str> = lines

@@ -14,8 +14,8 @@ use crate::alteration::{Alteration, Suspicion, HALF};
 use crate::problem::Prepared;
 use crate::record::{is_same_unit, Column, Record};
 
-/// Factors between units that a header does not state: milli and kilo, degrees in place of
-/// radians, inches in place of millimetres, and back.
+/// Factors between units that a header does not state: milli and kilo, degrees instead of radians,
+/// inches instead of millimetres, and the inverse factors.
 const FACTORS: [f64; 6] = [
     1e3,
     1e-3,
@@ -24,8 +24,8 @@ const FACTORS: [f64; 6] = [
     25.4,
     1.0 / 25.4,
 ];
-/// A factor is tried where it brings the range of the column to within this multiple of what the
-/// model has seen. A choice.
+/// A factor is tried if it brings the range of the column to within this multiple of the range of
+/// the model's record. A choice.
 const ALIKE: f64 = 4.0;
 /// Longest time by which the output may come late \[s\], and the share of the record. A choice.
 const LATEST: (f64, f64) = (1.0, 0.1);

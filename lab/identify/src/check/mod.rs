@@ -4,21 +4,21 @@
 //! filter of its fit. Then only a gain and an offset are fitted. Both errors are compared with the
 //! error of the model on the held-out part of its own record.
 //!
-//! **What counts.** There is no fit segment: all of the record is unseen. What came before it
-//! is unknown, though. The hysteresis starts in the middle (eta = 0) and effects with memory
-//! start at rest, and what comes before the input has covered its half-range four times does
-//! not count (at most a quarter of the record), as for a file that `identify` holds out whole.
-//! Estimating eta(0) instead would be a refit. How much the unknown state still matters is
-//! measured: the model runs from eta = −1 and from eta = 1 as well.
+//! **What counts.** There is no fit segment, because nothing is fitted to the record. The motion
+//! before the record is unknown: the hysteresis starts at eta = 0, and effects with memory start at
+//! rest. As for a file that `identify` holds out as a whole, samples count only after the input has
+//! covered its half-range four times (at most a quarter of the record). Estimating eta(0) instead
+//! would be a refit. The model also runs from eta = −1 and from eta = 1, to measure the influence
+//! of the unknown state.
 //!
-//! **The rule.** A model *holds* where its error is at most the largest of three values:
+//! **The rule.** A model *holds* if its error is at most the largest of three values:
 //!
-//! * [`HOLDS`] times the held-out error that it came with, both as shares of the output's standard
-//!   deviation, but at most [`NOTHING`] of the deviation: above this share a model explains less
-//!   than half of the output's variance;
+//! * [`HOLDS`] times its own held-out error, both as shares of the output's standard deviation, but
+//!   at most [`NOTHING`] of the deviation: above this share a model explains less than half of the
+//!   output's variance;
 //! * [`HOLDS`] times that error in the output's unit, but at most [`FAINT`] of the deviation: a
 //!   record that moves less makes the same error a larger share;
-//! * [`NOISE`] times the noise floor of this record: what is noise is no fault of the model.
+//! * [`NOISE`] times the noise floor of this record, because noise is not an error of the model.
 
 mod findings;
 mod given;
@@ -40,45 +40,47 @@ pub(crate) use findings::summary;
 pub use given::{one_line, About, Errors, Given, Seen};
 use play::{Before, Played};
 
-/// A model holds up to this many times the held-out error that it came with. That error is
-/// of a quarter of a record, and has the luck of a short stretch: over pairs of generated
-/// records of one rig a right model has between 0.6 and 1.9 times of it on the next record
-/// (`--test ways calibration`).
+/// A model holds up to this multiple of its own held-out error. That error is measured on a quarter
+/// of a record and therefore scatters: on pairs of generated records of one rig, the error of a
+/// correct model on the next record is between 0.6 and 1.9 times as large (`--test ways
+/// calibration`).
 pub const HOLDS: f64 = 2.0;
-/// Error that is noise, as a multiple of the floor: as for the verdict `explained`.
+/// Multiple of the noise floor up to which an error counts as noise, as for the verdict
+/// `explained`.
 pub const NOISE: f64 = 1.2;
-/// From this share of the output's standard deviation on a model explains less than half of the
-/// output's variance, as one whose verdict is `no-input-dependence`.
+/// Above this share of the output's standard deviation, a model explains less than half of the
+/// output's variance, as with the verdict `no-input-dependence`.
 pub const NOTHING: f64 = 0.7;
-/// Up to this share of the output's standard deviation a model holds by its error in the output's
-/// unit; from there on an error that is no larger than at home says nothing. A choice: from that share
-/// on a model is called a poor one.
+/// Up to this share of the output's standard deviation, a model can hold by its error in the
+/// output's unit. Above this share the verdict is `cannot-tell`, even if the error is no larger
+/// than on the model's own record. A choice: above this share a model is called poor.
 pub const FAINT: f64 = 0.2;
-/// Up to this multiple of the limit nothing is said of a model that was not exact where it came from. On
-/// another record of its rig such a model errs up to 2.5 times as much as at home, [`HOLDS`] times this
-/// (`docs/results/transfer.md`).
+/// Up to this multiple of the limit, the verdict on a model that was not exact on its own record is
+/// `cannot-tell`. On another record of its rig, the error of such a model is up to 2.5 times as
+/// large, which is [`HOLDS`] times this constant (`docs/results/transfer.md`).
 pub const JUST: f64 = 1.25;
-/// Gain and offset are what has moved where they leave at most this share of the squared error. Of two
-/// right models of one rig either may be past the limit by a little; half is a choice.
+/// Gain and offset count as changed if, once fitted, at most this share of the squared error
+/// remains. Even a correct model may exceed the limit slightly; half is a choice.
 const MENDED: f64 = 0.5;
-/// An output whose standard deviation is below this many noise floors shows nothing.
+/// An output with a standard deviation below this number of noise floors cannot test a model.
 const QUIET: f64 = 2.0;
-/// The unknown state before the record is mentioned from this share of the error on.
+/// The unknown state before the record is mentioned if it changes the prediction by more than this
+/// share of the error.
 const MATTERS: f64 = 0.2;
 
-/// What a check amounts to.
+/// The verdict of a validation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The error is that which the model came with, or noise.
+    /// The error is comparable to that on the model's own record, or is noise.
     Holds,
-    /// It holds with another gain and offset, only with these, and they are most of the error.
+    /// The model holds only with another gain and offset, which account for most of the error.
     GainOrOffsetMoved,
-    /// It does not hold, whatever its gain and offset.
+    /// The model does not hold with any gain and offset.
     DoesNotHold,
-    /// Nothing says what error it should have, or the record shows nothing.
+    /// The expected error is unknown, or the record cannot test the model.
     CannotTell,
-    /// The measurement itself is spoilt.
+    /// The measurement is defective.
     DefectiveRecord,
 }
 
@@ -96,10 +98,10 @@ impl Verdict {
     }
 }
 
-/// A model on a record that it has not seen.
+/// A model on a record that it was not fitted to.
 #[derive(Debug, Clone)]
 pub struct Check {
-    /// The record; what counts of it is its fit segment.
+    /// The record; its fit segment contains the samples that count.
     pub data: Prepared,
     /// The model on it.
     pub model: Solution,
@@ -107,43 +109,45 @@ pub struct Check {
     pub line: Line,
     /// Standard deviation of the filtered output, in its unit.
     pub deviation: f64,
-    /// Rms error as it is, in the output's unit.
+    /// Rms error without gain and offset, in the output's unit.
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
-    /// Mean of the error as it is: an offset that has moved by itself.
+    /// Mean of the error without gain and offset: a changed offset.
     pub mean: f64,
-    /// Rms error up to which the model holds; `None` where its file says no held-out error
-    /// and the noise floor is not known.
+    /// Rms error up to which the model holds; `None` if its file states no held-out error and the
+    /// noise floor is unknown.
     pub allowed: Option<f64>,
-    /// What the model's file says of the record that it came from.
+    /// The statements of the model file about its record.
     pub about: About,
-    /// Where this record goes beyond what the model has seen.
+    /// The ranges in which this record exceeds the model's own record.
     pub outside: Vec<Outside>,
-    /// On what the residual behind gain and offset depends, where the model does not hold.
+    /// The variables that the residual after gain and offset depends on, if the model does not
+    /// hold.
     pub depends_on: Vec<Dependence>,
-    /// A suspected logging error, without which the model would hold.
+    /// A suspected logging error; once it is corrected, the model holds.
     pub suspicion: Option<Suspicion>,
-    /// Rms by which the state before the record still moves the prediction, at most, if it was
-    /// within what the record itself reaches.
+    /// Largest rms change of the prediction by the state before the record, for states within the
+    /// range of the record.
     pub start: f64,
-    /// Standard deviation of what the model makes of the input; `None` where that cannot be told.
+    /// Standard deviation of the part of the prediction that depends on the input; `None` if it
+    /// cannot be computed.
     pub made_of_input: Option<f64>,
     /// Severe defects of the columns that the model reads.
     pub spoilt: Vec<Defect>,
-    /// Seconds at the start that do not count.
+    /// Seconds at the start that are excluded.
     pub left_out: f64,
     /// The verdict.
     pub verdict: Verdict,
 }
 
 impl Check {
-    /// Checks a model on a record, at the model's own cut-off unless another one is given
+    /// Validates a model on a record, at the model's own cut-off unless another one is given
     /// \[Hz\].
     ///
     /// # Errors
-    /// One line where the record lacks what the model reads, where a unit cannot be
-    /// converted, or where the record is too short.
+    /// A message if the record lacks a channel that the model reads, if a unit cannot be converted,
+    /// or if the record is too short.
     pub fn new(mut record: Record, given: &Given, cutoff: Option<f64>) -> Result<Self, String> {
         if record.mode != given.mode()? {
             return Err(format!(
@@ -249,21 +253,21 @@ impl Check {
         }
     }
 
-    /// Whether the model missed more than noise where it came from.
+    /// Whether the error on the model's own record exceeded the noise.
     #[must_use]
     pub fn was_inexact(&self) -> bool {
         at_home(&self.about).is_some_and(|own| own > NOISE * self.data.noise_floor)
     }
 
-    /// Whether the model misses somewhat more than it may, and was not exact where it came from: that is
-    /// what another motion does to it.
+    /// Whether the error slightly exceeds the limit and the model was not exact on its own record,
+    /// as is usual on another motion.
     #[must_use]
     pub fn is_just_above(&self) -> bool {
         let mut allowed = self.allowed.into_iter();
         self.was_inexact() && allowed.any(|most| self.rmse <= JUST * most)
     }
 
-    /// Whether most of the error is one of gain and offset.
+    /// Whether gain and offset account for most of the error.
     #[must_use]
     pub fn is_mended(&self) -> bool {
         self.rmse_gain_offset.powi(2) <= MENDED * self.rmse.powi(2)
@@ -297,35 +301,35 @@ impl Check {
         }
     }
 
-    /// Whether the output moves so little that a model cannot be told from a constant.
+    /// Whether the output moves so little that a model cannot be distinguished from a constant.
     #[must_use]
     pub fn is_quiet(&self) -> bool {
         self.deviation <= QUIET * self.data.noise_floor || self.deviation <= 0.0
     }
 
-    /// The held-out error that the model came with, as a share of the standard deviation.
+    /// The model's own held-out error, as a share of the standard deviation.
     #[must_use]
     pub fn reference(&self) -> Option<f64> {
         reference(&self.about)
     }
 
-    /// Whether the error in the output's unit is one that the model came with.
+    /// Whether the error in the output's unit is within the limit from the model's own record.
     #[must_use]
     pub fn is_as_at_home(&self) -> bool {
         at_home(&self.about).is_some_and(|own| self.rmse <= HOLDS * own)
     }
 
-    /// Rms error with an offset alone.
+    /// Rms error with a fitted offset only.
     #[must_use]
     pub fn rmse_offset(&self) -> f64 {
         (self.rmse.powi(2) - self.mean.powi(2)).max(0.0).sqrt()
     }
 
-    /// The signals over time as CSV: measured, the model as it is and with gain and offset,
-    /// what each leaves, and what each part of the model adds.
+    /// The signals over time as CSV: the measured output, the model without and with gain and
+    /// offset, both residuals, and the contribution of each part of the model.
     ///
     /// # Errors
-    /// One sentence where the trace cannot be put together.
+    /// A message if the trace cannot be computed.
     pub fn trace(&self) -> Result<String, String> {
         let unit = self.data.output_unit.as_deref();
         let moved = self.line.of(&self.model.prediction);
@@ -447,7 +451,7 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
     notes
 }
 
-/// Where the record goes beyond what the model that reads it has seen, the input first.
+/// The ranges in which the record exceeds the model's record, the input first.
 fn outside(data: &Prepared, given: &Given) -> Vec<Outside> {
     let channels = data.channels.iter().map(|c| (c.name.as_str(), c));
     let all = std::iter::once(("input", &data.input)).chain(channels);

@@ -90,11 +90,11 @@ pub(super) fn remembers(model: &Solution) -> bool {
 /// again: a play, and a spring that slips.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Before {
-    /// It was at rest.
+    /// From rest.
     Rest,
-    /// From the lower end of what the model has seen.
+    /// From the lower end of the range of the model's record.
     Low,
-    /// From its upper end.
+    /// From the upper end of this range.
     High,
 }
 
@@ -121,7 +121,7 @@ impl Before {
 /// The model on the record, from that hysteresis state at the first sample and that motion before it.
 ///
 /// # Errors
-/// One line where the record lacks a channel that the model reads.
+/// A message if the record lacks a channel that the model reads.
 pub(super) fn play(
     data: &Prepared,
     given: &Given,
@@ -205,8 +205,8 @@ pub(super) fn play(
     })
 }
 
-/// What the model makes of the input, that is the standard deviation by which its prediction
-/// changes where the input is held at its mean; `None` where it has no value there.
+/// The part of the prediction that depends on the input: the standard deviation of its change if
+/// the input is held at its mean; `None` if the prediction has no value there.
 pub(super) fn made_of_input(data: &Prepared, given: &Given, prediction: &[f64]) -> Option<f64> {
     let mut held = data.clone();
     let motion = &mut held.input.motion;

@@ -9,15 +9,15 @@ use crate::problem::{Prepared, Stretch};
 pub struct Knot {
     /// Value of the variable.
     pub at: f64,
-    /// What the curve adds to the output there.
+    /// The contribution of the curve to the output at this value.
     pub value: f64,
-    /// 95 % interval, by blocks; `None` where the record does not determine it.
+    /// 95 % interval, by blocks; `None` if the record does not determine it.
     pub ci95: Option<[f64; 2]>,
 }
 
-/// The table of a model as a curve; empty where it has none.
+/// The table of a model as a curve; empty if it has none.
 ///
-/// The curve excludes whatever the rest of the model can represent, above all a constant.
+/// The curve excludes everything that the rest of the model can represent, above all a constant.
 #[must_use]
 pub fn curve(data: &Prepared, solution: &Solution) -> Vec<Knot> {
     let Some(table) = &solution.structure.table else {

@@ -1,5 +1,5 @@
-//! Files that no single model can describe, because in one of them the output is a multiple of that
-//! in the others: another sign, unit or calibration.
+//! Files that no single model can describe, because the output of one file has another sign, unit
+//! or calibration.
 
 use super::by_file::nrmse_by_file;
 use super::final_fit::FinalFit;
@@ -39,7 +39,7 @@ pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Sol
 enum Beside {
     /// The gains describe the file, except for an offset.
     Same,
-    /// Another gain describes the file.
+    /// A different gain describes the file.
     Apart(FileApart),
     /// Neither describes the file.
     Other,

@@ -24,14 +24,13 @@ pub struct FinalFit {
     pub rmse: Segments,
     /// Whether the parameters were also fitted to the selection segment.
     pub refitted: bool,
-    /// The held-out error with the hysteresis, if the hysteresis was redundant and is left out.
+    /// The held-out error with the hysteresis, if the hysteresis was redundant and is excluded.
     pub without_hysteresis: Option<f64>,
 }
 
 impl FinalFit {
     /// Fits the last model of a results table to the fit and selection segments together; if this
-    /// fit finds nothing better there, the model stays as it is. A redundant hysteresis is left
-    /// out.
+    /// fit is not better, the model remains unchanged. A redundant hysteresis is excluded.
     #[must_use]
     pub fn new(data: &Prepared, ledger: &Ledger) -> Self {
         let whole = Self::of(data, ledger.last());

@@ -105,7 +105,7 @@ pub enum Finding {
         /// Error with both.
         error: f64,
     },
-    /// The model describes a held-out file neither as it is nor with another gain and offset.
+    /// The model does not describe a held-out file, even with another gain and offset.
     HeldOutFileDiffers,
     /// The mean of the held-out output predicts it better than the model does.
     WorseThanConstant {
@@ -343,7 +343,7 @@ pub enum Finding {
         /// The limit.
         limit: f64,
     },
-    /// Validation: the error exceeds the noise, and nothing says what error is expected.
+    /// Validation: the error exceeds the noise, and the expected error is unknown.
     ErrorWithoutLimit {
         /// The error.
         error: f64,

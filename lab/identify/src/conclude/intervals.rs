@@ -27,13 +27,14 @@ pub struct Parameter {
     pub name: String,
     /// Estimate.
     pub value: f64,
-    /// Unit, where the record states the units of its columns.
+    /// Unit, if the record states the units of its columns.
     pub unit: Option<String>,
-    /// 95 % interval; `None` where the parameter is not identified.
+    /// 95 % interval; `None` if the parameter is not identified.
     pub ci95: Option<[f64; 2]>,
     /// Whether the record determines it.
     pub identified: bool,
-    /// Why not, and which motion would identify it; `None` if it is identified.
+    /// The reason why it is not identified, and the motion that would identify it; `None` if it is
+    /// identified.
     pub not_identified: Option<Refusal>,
     /// Factor by which its interval is too wide, if this is the reason.
     #[serde(skip)]
@@ -65,8 +66,8 @@ struct Entry<'a> {
     value: f64,
     column: &'a Stretch,
     shape: bool,
-    /// Why it is not identified, whatever its interval: it lies on a bound, or the record cannot
-    /// identify it.
+    /// The reason why it is not identified, independently of its interval: it is at a bound, or the
+    /// record cannot identify it.
     refused: Option<String>,
     excitation: &'static str,
     /// The reported value is this factor times the fitted one.
@@ -358,7 +359,7 @@ pub(crate) fn quantile() -> Option<f64> {
     Some(student.inverse_cdf(0.975))
 }
 
-/// Half-widths of the 95 % intervals; `None` where a column depends on the others.
+/// Half-widths of the 95 % intervals; `None` if a column depends on the others.
 fn half_widths(data: &Prepared, solution: &Solution, columns: &[&Stretch]) -> Vec<Option<f64>> {
     let (Some(steps), Some(quantile)) = (jackknife(data, solution, columns), quantile()) else {
         return vec![None; columns.len()];

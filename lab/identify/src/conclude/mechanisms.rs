@@ -24,7 +24,7 @@ pub struct Lack {
     pub mechanism: Mechanism,
     /// The channel that the missing force depends on.
     pub channel: String,
-    /// The mechanism for people, with its channel.
+    /// The mechanism in words, with its channel.
     pub title: String,
     /// Share of the baseline's squared error on left-out blocks that it removes.
     pub share: Shares,
@@ -51,7 +51,7 @@ pub struct DescribedBy {
 }
 
 impl DescribedBy {
-    /// The terms, and the error with them, for people.
+    /// The terms in words, and the error with them.
     #[must_use]
     pub fn words(&self) -> String {
         let effects = self.effects.join(" + ");
@@ -81,7 +81,7 @@ impl Shares {
 pub struct Curve {
     /// The variable in words.
     pub over: String,
-    /// Its unit, where the record states it.
+    /// Its unit, if the record states it.
     pub unit: Option<String>,
     /// Points with their 95 % intervals, which hold for the motion of this record.
     pub points: Vec<Knot>,
@@ -104,7 +104,7 @@ pub struct LackAlone {
     pub mechanism: Mechanism,
     /// The channel that the missing force depends on.
     pub channel: String,
-    /// The mechanism for people, with its channel.
+    /// The mechanism in words, with its channel.
     pub title: String,
     /// Share of the baseline's squared error on left-out blocks that it removes by itself.
     pub share: Share,
@@ -147,7 +147,7 @@ impl LackAlone {
 /// A mechanism that all files together support, or one of them alone with high confidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Across<'a> {
-    /// The mechanism for people.
+    /// The mechanism in words.
     pub title: &'a str,
     /// Whether the joint fit supports it.
     pub is_joint: bool,
@@ -206,7 +206,7 @@ impl Complete {
     }
 }
 
-/// The channel that a mechanism depends on, and the mechanism for people.
+/// The channel that a mechanism depends on, and the mechanism in words.
 fn channel_and_title(data: &Prepared, one: &Support) -> (String, String) {
     let channel = data.channel(one.source).map_or("", |c| c.name.as_str());
     let is_input = one.source == Source::Input;

@@ -1,4 +1,4 @@
-//! Whether there is no model of the input, and why.
+//! Whether no model of the input can be identified, and the reason.
 
 use super::changes::is_other_file;
 use super::files_apart::files_scaled;

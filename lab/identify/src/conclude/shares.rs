@@ -7,8 +7,8 @@ use crate::problem::Prepared;
 /// The parts of a model's output on the work grid, before the filter: they sum to it.
 ///
 /// An output stage acts on the sum of all other parts. The other parts are therefore given before
-/// the stages, and the part of a stage is the change that it makes. An input stage has no part of
-/// its own: it changes the part of the transmission.
+/// the stages, and the part of a stage is the change that it makes. An input stage has no separate
+/// part: it changes the part of the transmission.
 #[derive(Debug, Clone)]
 pub struct Shares {
     /// The transmission's gain, hysteresis and constant, if there is a transmission.

@@ -1,4 +1,4 @@
-//! The signals of a run on the estimation grid, as plain data: what a figure draws.
+//! The signals of a run on the estimation grid, as plain data for the figures.
 
 use super::trace::{parts, position, Column};
 use crate::fit::Solution;
@@ -66,7 +66,7 @@ pub struct Signals {
     pub channels: Vec<Column>,
     /// The output through the filter.
     pub measured: Column,
-    /// The predictions of two models: the baseline and the final model, or the model as it is and
+    /// The predictions of two models: the baseline and the final model, or the model without and
     /// with gain and offset.
     pub models: [Column; 2],
     /// The residual of each model.
@@ -79,7 +79,7 @@ impl Signals {
     /// The signals of two models on a record; `whole` is the one whose parts are given.
     ///
     /// # Errors
-    /// One sentence if the parts of the model cannot be computed.
+    /// A message if the parts of the model cannot be computed.
     pub fn of(
         data: &Prepared,
         models: [(&str, &[f64]); 2],

@@ -92,8 +92,8 @@ fn input_gain(solution: &Solution) -> Option<f64> {
     Some(solution.gains[0] + shares.map(|(i, _)| solution.gain(i)).sum::<f64>())
 }
 
-/// A hysteresis whose loop runs in the opposite sense to that of the output: together with other
-/// parts, its gain is that of a difference.
+/// A hysteresis whose loop runs in the opposite sense to that of the output: its gain and the gains
+/// of other parts partly cancel.
 pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     let (data, solution) = (&done.data, &done.solution);
     let structure = &solution.structure;

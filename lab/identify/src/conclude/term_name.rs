@@ -18,7 +18,7 @@ pub fn term_name(data: &Prepared, term: &FitTerm) -> String {
     }
 }
 
-/// The name of a term for people: with the order of a ripple or the frequency of a tone, which
+/// The name of a term in words: with the order of a ripple or the frequency of a tone, which
 /// distinguishes two of them.
 #[must_use]
 pub fn term_title(data: &Prepared, term: &FitTerm) -> String {

@@ -17,7 +17,7 @@ use crate::problem::{Channel, Prepared};
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// Its unit, where the record states one.
+    /// Its unit, if the record states one.
     pub unit: Option<String>,
     /// One value for each sample.
     pub values: Vec<f64>,
@@ -47,7 +47,7 @@ impl Column {
 /// (a delay, a lag) are given before the stage, and the stage as the change that it makes.
 ///
 /// # Errors
-/// One sentence if the trace cannot be computed.
+/// A message if the trace cannot be computed.
 pub fn trace(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Result<String, String> {
     let unit = data.output_unit.as_deref();
     let last = &done.solution;

@@ -8,9 +8,8 @@ use crate::ledger::{CoarseChannel, FileApart};
 use crate::score::explains::Explained;
 use crate::score::ranges::Outside;
 
-/// Least fraction of an unmodelled curve that effects explain to first order, at which the sentence
-/// says why the curve was preferred. A choice: a reader who sees "95 %" asks why no effect is
-/// named.
+/// Share of an unmodelled curve that effects explain to first order, above which the sentence gives
+/// the reason for the curve. A choice: a reader who sees "95 %" asks why no effect is named.
 const NEARLY_ALL: f64 = 0.9;
 
 impl Finding {

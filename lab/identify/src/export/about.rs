@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The table `about` of a model file: for people and tools, not for the core.
+/// The table `about` of a model file, for users and tools; the core does not read it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct About {
@@ -22,7 +22,7 @@ pub struct About {
     /// The verdict of `bowden identify` on the record: with `no-input-dependence` it is not to be used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<String>,
-    /// Which of them has the gains of this model, where each has its own.
+    /// The file whose gains this model has, if the files have separate gains.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gains_of: Option<String>,
     /// Cut-off of the fit's filter \[Hz\].
@@ -31,7 +31,7 @@ pub struct About {
     pub rate_hz: f64,
     /// Time constant for `bowden::signal::Rates` \[s\].
     pub rates_time_constant_s: f64,
-    /// Whether the model was fitted within what a compensator can invert.
+    /// Whether the model was fitted within the range that has an inverse.
     pub fitted_invertible: bool,
     /// `yes`, or `no, because …`: whether a compensator can invert the model.
     pub feed_forward: String,
@@ -40,27 +40,27 @@ pub struct About {
     pub held_out_rmse: Option<f64>,
     /// Errors of this model, as shares of the output's standard deviation.
     pub nrmse: Errors,
-    /// Play before the hysteresis, where the error with causal rates is large without it.
+    /// Play in front of the hysteresis, if the error with causal rates is large without it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub play: Option<PlayBefore>,
-    /// Parts of the fitted model that are not in this one.
+    /// Parts of the fitted model that this model does not contain.
     pub excluded_terms: Vec<LeftOut>,
     /// Parameters that the record does not determine.
     pub not_identified: Vec<NotIdentified>,
     /// The unit of each parameter and of each source, by name.
     pub units: BTreeMap<String, String>,
-    /// How a channel is computed from other measured quantities, by its name, where it is none
-    /// itself: `stretch = "phi_p + phi_d"`. Whoever runs the model computes it the same way.
+    /// Definitions of channels that are computed from other measured quantities, by name: `stretch
+    /// = "phi_p + phi_d"`. Firmware must compute them in the same way.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub definitions: BTreeMap<String, String>,
     /// 95 % intervals of the parameters that the record determines, by their names in the file.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub intervals: BTreeMap<String, [f64; 2]>,
-    /// What the fit has seen of each source, by name.
+    /// Ranges of each source in the fitted record, by name.
     pub ranges: BTreeMap<String, Span>,
 }
 
-/// Errors of the model on the record, over the standard deviation of the output there.
+/// Errors of the model on the record, as shares of the output's standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Errors {
@@ -71,23 +71,24 @@ pub struct Errors {
     /// The same sample by sample, with the causal rates of firmware.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held_out_causal: Option<f64>,
-    /// Held out, with all that is not in this model.
+    /// On the held-out segment, with the excluded parts.
     pub held_out_as_fitted: f64,
 }
 
-/// Play between the measured input and the hysteresis, which the input's noise would turn.
+/// Play between the measured input and the hysteresis, so that the noise of the input does not
+/// reverse the hysteresis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlayBefore {
     /// Half-width for `bowden::signal::Play`, in the input's unit.
     pub half_width: f64,
-    /// The held-out error with it, sample by sample.
+    /// The held-out error with this play, sample by sample.
     pub held_out_causal: f64,
 }
 
-/// A part of the fitted model that is not handed over.
+/// A part of the fitted model that is not exported.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// Its name, as in the report.
+    /// The name in the report.
     pub effect: String,
     /// Why.
     pub reason: String,
@@ -96,13 +97,13 @@ pub struct LeftOut {
 /// A parameter that the record does not determine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NotIdentified {
-    /// Its name, as in the report.
+    /// The name in the report.
     pub parameter: String,
     /// Why.
     pub reason: String,
 }
 
-/// What the fit has seen of a source: least and greatest values.
+/// The range of a source in the fitted record: smallest and largest values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Span {
     /// Position \[unit of the source\].
@@ -138,7 +139,7 @@ impl Span {
 }
 
 impl About {
-    /// What somebody has to know before the model is used, where its verdict forbids that.
+    /// A warning, if the verdict forbids the use of the model.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let forbids = |v: &&str| {
@@ -151,7 +152,7 @@ impl About {
         Some(format!("DO NOT USE: its verdict is `{verdict}`."))
     }
 
-    /// What a record says of a solution; what else there is to say is the caller's.
+    /// The statements about a solution that follow from its record; the caller adds the others.
     #[must_use]
     pub fn new(data: &Prepared, solution: &Solution) -> Self {
         let parameters = parameters(data, solution);
@@ -185,7 +186,7 @@ impl About {
         }
     }
 
-    /// Errors of a model, relative ones.
+    /// Relative errors of a model.
     #[must_use]
     pub fn with_errors(self, nrmse: &Segments, causal: Option<&Segments>, fitted: f64) -> Self {
         Self {
@@ -199,7 +200,7 @@ impl About {
         }
     }
 
-    /// One line: by what, from which files, and what is missing.
+    /// One line with the program, the files and the excluded parts.
     #[must_use]
     pub fn remark(&self) -> String {
         let mut remark = format!("Identified by {} from {}", self.by, self.records.join(", "));
@@ -323,7 +324,7 @@ fn units(data: &Prepared, solution: &Solution) -> BTreeMap<String, String> {
 }
 
 impl ModelFile {
-    /// The same with its table `about`.
+    /// The model with its table `about`.
     #[must_use]
     pub fn with_about(self, about: About) -> Self {
         Self {

@@ -24,7 +24,7 @@ pub(super) fn after_steps(data: &Prepared, solution: &Solution) -> Option<Prepar
     Some(data.with_output(output?))
 }
 
-/// A solution with what it leaves of the record as it is.
+/// A solution with its residual on the unchanged record.
 pub(super) fn on_record(data: &Prepared, solution: Solution) -> Solution {
     let pairs = data.target.iter().zip(&solution.prediction);
     let residual: Vec<f64> = pairs.map(|(y, p)| y - p).collect();

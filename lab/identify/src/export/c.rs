@@ -15,14 +15,14 @@ macro_rules! line {
 }
 
 impl ModelFile {
-    /// As a C header: the bytes in `f32` and `f64`, functions `NAME_load_f32` and
-    /// `NAME_compensator_f32` (and `_f64`), the channels' places, the ranges, and the time
+    /// The model as a C header: the bytes in `f32` and `f64`, functions `NAME_load_f32` and
+    /// `NAME_compensator_f32` (and `_f64`), the indices of the channels, the ranges, and the time
     /// constant for `bowden_rates_settings_f32` (and `_f64`). `name` is the stem of its file, see
     /// [`prefix`].
     ///
     /// # Errors
-    /// One sentence where the name gives no prefix, the core refuses a part, or the C interface
-    /// has no room for it.
+    /// A message if the name results in no prefix, the core refuses a part, or the model exceeds
+    /// the capacity of the C interface.
     pub fn c(&self, name: &str) -> Result<String, String> {
         let none = About::default();
         let about = self.about.as_ref().unwrap_or(&none);
@@ -234,7 +234,7 @@ fn number(value: f64, is_single: bool) -> String {
     }
 }
 
-/// What is included once; another header of the same prefix beside it is an error, not silence.
+/// The include guard; a second header with the same prefix and other contents is an error.
 fn guarded(upper: &str, body: &str) -> String {
     let guard = format!("BOWDEN_MODEL_{upper}_H");
     // Of all that follows: a model of the same bytes may have other channels or ranges.

@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 /// Prefixes with which the header would have names that `bowden.h` has itself.
 const TAKEN: [&str; 2] = ["bowden", "bowden_model"];
 
-/// What the names in a C header of this file name (without its ending) begin with.
+/// The prefix of all names in the C header with this file name (without its ending).
 ///
-/// Several file names may have one prefix (`rig-1`, `rig_1`, `RIG 1`); where two such headers
-/// with different contents meet, the compiler says so.
+/// Several file names may have one prefix (`rig-1`, `rig_1`, `RIG 1`); two such headers with
+/// different contents in one program cause a compiler error.
 ///
 /// # Errors
-/// What else is needed, where there is no Latin or Greek letter, or the names would be the
-/// library's.
+/// A message if the name contains no Latin or Greek letter, or if the names would be those of the
+/// library.
 pub fn prefix(name: &str) -> Result<String, String> {
     let own = signs(name).to_lowercase();
     if !own.contains(|c: char| c.is_ascii_alphabetic()) {
@@ -60,8 +60,9 @@ pub(super) fn macros(channels: &[String]) -> Vec<String> {
     names
 }
 
-/// The signs of a name that C's names have, `_` in place of the others, none of them in front: in C
-/// a macro that begins so is the compiler's. Greek letters are spelt out; `µ` is u, as in `um`.
+/// The characters of a name that are valid in C, with `_` instead of the others, but not at the
+/// start: in C, macros that begin with `_` are reserved. Greek letters are spelt out; `µ` becomes
+/// u, as in `um`.
 fn signs(name: &str) -> String {
     let mut kept = String::new();
     for sign in name.chars() {

@@ -1,10 +1,10 @@
 //! The error of a model on a microcontroller: sample by sample, with causal rates.
 //!
-//! The fit uses future samples: its velocities come from a zero-phase filter. Firmware cannot do
-//! this. Here the exported model runs as it will run in firmware: in `f32`, from a fresh state, at
-//! the record's own time stamps, on the columns as they were recorded, with the velocities and
-//! accelerations of [`Rates`]. Its output then takes the way of the measured one, through the same
-//! grids and filters, so that both errors are of the same rows and of the same band.
+//! The velocities of the fit come from a zero-phase filter, which uses future samples. Firmware
+//! cannot do this. Here the exported model runs as in firmware: in `f32`, from a new state, at the
+//! record's time stamps, on the recorded columns, with the velocities and accelerations of
+//! [`Rates`]. Its output then passes through the same grids and filters as the measured output, so
+//! both errors refer to the same rows and the same band.
 
 use super::vector::load;
 use super::{ModelFile, MOST_TERMS};
@@ -18,7 +18,7 @@ use bowden::signal::{Play, PlayState, Rates, RatesState};
 /// The time constant for the rates of a fit with this cut-off \[s\].
 ///
 /// # Errors
-/// Where the cut-off has none.
+/// If the cut-off has no valid time constant.
 pub fn time_constant(cutoff: f64) -> Result<f64, String> {
     let rates = Rates::for_cutoff(cutoff).map_err(|e| e.to_string())?;
     Ok(rates.time_constant())
@@ -26,11 +26,11 @@ pub fn time_constant(cutoff: f64) -> Result<f64, String> {
 
 /// The errors with causal rates, as shares of the output's standard deviation.
 ///
-/// `files` are the models: one for all records, or one for each. `half_width` is that of the
-/// [`Play`] through which the input passes, if it does.
+/// `files` are the models: one for all records, or one for each. `half_width` is that of a [`Play`]
+/// on the input, if there is one.
 ///
 /// # Errors
-/// One sentence where the model cannot be built or the grids not be laid again.
+/// A message if the model cannot be built, or if its output cannot be resampled.
 pub fn causal(
     records: &[Record],
     data: &Prepared,

@@ -2,9 +2,9 @@
 //!
 //! A tone has a phase, a drift a start, a pretension step a time and a degradation a history: each
 //! refers to the first sample of the record. In firmware they would restart at every power-on and
-//! be wrong. They are fitted so that they do not disturb the others; then the model that is handed
-//! over is fitted again without them, on the same segments: among the models that firmware can run
-//! it is the one that fits best. What a pretension step leaves behind is the rig's, though
+//! be wrong. They are fitted so that they do not disturb the other terms. The exported model is
+//! then refitted without them on the same segments, so it is the best fit among the models that
+//! firmware can run. The state after a pretension step, however, belongs to the rig
 //! (`after_steps`).
 
 use super::ROOM;
@@ -15,26 +15,26 @@ use crate::problem::Prepared;
 use crate::score::hats::HATS;
 use bowden::effect::Effect;
 
-/// Whether an effect counts from the first sample of its record.
+/// Whether an effect refers to the first sample of its record.
 #[must_use]
 pub fn is_clockwork(effect: &Effect<f64>) -> bool {
     counts_from_the_start(effect.info().family)
 }
 
-/// Whether the effects of a family count from the first sample of their record.
+/// Whether the effects of a family refer to the first sample of their record.
 #[must_use]
 pub fn counts_from_the_start(family: &'static str) -> bool {
     of_the_record(family).is_some()
 }
 
-/// Why an effect of this family is not handed over; empty where it is.
+/// The reason why an effect of this family is not exported; empty if it is exported.
 #[must_use]
 pub fn because(family: &'static str) -> &'static str {
     of_the_record(family).unwrap_or_default()
 }
 
-/// The structure of a solution without the effects that `goes` names. A curve goes where the core has
-/// none over its variable, and else has as many points as there is room for.
+/// The structure of a solution without the effects that `goes` selects. A curve is removed if the
+/// core has none over its variable; otherwise it has as many points as the model has room for.
 #[must_use]
 pub fn without(solution: &Solution, goes: impl Fn(&Effect<f64>) -> bool) -> Structure {
     let mut structure = solution.structure.clone();
@@ -45,14 +45,14 @@ pub fn without(solution: &Solution, goes: impl Fn(&Effect<f64>) -> bool) -> Stru
     structure
 }
 
-/// Whether the record's own clockwork, or a curve, is part of a solution.
+/// Whether a solution contains a curve, or effects that refer to the first sample.
 #[must_use]
 pub fn has_clockwork(solution: &Solution) -> bool {
     let mut terms = solution.structure.terms.iter();
     solution.structure.table.is_some() || terms.any(|t| is_clockwork(&t.effect))
 }
 
-/// The name of a curve that the core does not have, where a solution has one.
+/// The name of a curve that the core does not support, if a solution has one.
 #[must_use]
 pub fn lost_curve_name(data: &Prepared, solution: &Solution) -> Option<String> {
     let curve = solution.structure.table.as_ref();

@@ -4,16 +4,16 @@ use super::{ModelFile, MOST_TERMS};
 use bowden::model::Model;
 use crc::{Crc, CRC_32_ISO_HDLC};
 
-/// The checksum behind the model: CRC-32/ISO-HDLC, that of zlib and of most CRC units.
+/// The checksum after the model: CRC-32/ISO-HDLC, as in zlib and most CRC units.
 pub const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// The model in `f32` as postcard, four bytes of CRC-32 last.
 ///
-/// The bytes hold the number of terms, so that they read into any capacity that is not
-/// smaller.
+/// The bytes contain the number of terms, so they can be read into any capacity that is large
+/// enough.
 ///
 /// # Errors
-/// One sentence that says which part the core refuses.
+/// A message with the part that the core refuses.
 pub fn postcard(file: &ModelFile) -> Result<Vec<u8>, String> {
     let model: Model<f32, MOST_TERMS> = file.model_in()?;
     postcard::to_allocvec_crc32(&model, CHECKSUM.digest()).map_err(|e| e.to_string())

@@ -1,10 +1,10 @@
 //! From the final model to the exported model for firmware.
 //!
-//! The final model says what is in the record. What runs on a chip is less: without effects
-//! that count from the record's first sample ([`clockwork`](crate::export::clockwork)), without a
-//! curve that the core does not have, and, if that is wanted, within what can be turned round
-//! ([`invertible`](crate::export::invertible)). Whatever is left out, the rest is fitted again on
-//! the same segments, and the errors that are said are those of the model that is written.
+//! The final model describes the record. The exported model has no effects that refer to the
+//! record's first sample ([`clockwork`](crate::export::clockwork)), no curve that the core does not
+//! support, and, if requested, gains and shapes within the range that has an inverse
+//! ([`invertible`](crate::export::invertible)). If parts are excluded, the rest is refitted on the
+//! same segments. The reported errors are those of the exported model.
 
 use super::after_steps::{after_steps, on_record};
 use super::causal::{causal, time_constant};
@@ -30,38 +30,37 @@ const OFF: f64 = 2.0;
 /// Half-width of the play before the hysteresis, in standard deviations of the input's noise: see
 /// [`Play`](bowden::signal::Play).
 const PLAY: f64 = 4.0;
-/// Share of the error in firmware to which play has to reduce it to be told of.
+/// A play is reported if it reduces the error in firmware at least to this share.
 const HELPS: f64 = 0.5;
 
-/// Why a stage is not handed over.
+/// The reason why a stage is not exported.
 const NO_INVERSE: &str = "--invertible: it has no inverse";
 
-/// What `--invertible` does to the gain of a transmission on the bound.
+/// The effect of `--invertible` on the gain of a transmission at the bound.
 pub const TIED: &str = "fixed at 2·sigma·kappa_eta·rho by --invertible";
 
-/// The model that is handed over, and what it is worth.
+/// The exported model and its errors.
 #[derive(Debug, Clone)]
 pub struct HandOver {
-    /// The fit that is written.
+    /// The exported fit.
     pub fitted: FinalFit,
-    /// The files: one, or one for each record with gains of its own.
+    /// The files: one, or one for each record with separate gains.
     pub files: Vec<ModelFile>,
-    /// Parts of the final model that are not in it.
+    /// Parts of the final model that are excluded.
     pub left_out: Vec<LeftOut>,
     /// Its errors, as shares of the output's standard deviation.
     pub nrmse: Segments,
-    /// The errors of the loop's final model, as such shares.
+    /// The errors of the final model, in the same form.
     pub as_fitted: Segments,
-    /// Its errors sample by sample with causal rates, as such shares.
+    /// Its errors sample by sample with causal rates, in the same form.
     pub causal: Segments,
     /// Time constant of the causal rates \[s\].
     pub time_constant: f64,
-    /// The same with play before the hysteresis, where the input's noise is what makes the
-    /// error.
+    /// The same with a play in front of the hysteresis, if the noise of the input causes the error.
     pub calmed: Option<Calmed>,
-    /// Whether it was to be fitted within what can be inverted.
+    /// Whether a fit within the range that has an inverse was requested.
     pub within_inverse: bool,
-    /// Whether it can be a feed-forward.
+    /// Whether it can serve as a feed-forward.
     pub feed_forward: FeedForward,
 }
 
@@ -75,21 +74,22 @@ pub struct Calmed {
 }
 
 impl HandOver {
-    /// Whether firmware errs so much more than the fit that the sentence has to say it.
+    /// Whether the error in firmware is so much larger than that of the fit that the summary must
+    /// state it.
     #[must_use]
     pub fn is_off(&self) -> bool {
         let (fit, firmware) = (self.nrmse.held_out, self.causal.held_out);
         firmware > NOTABLE && firmware > OFF * fit
     }
 
-    /// Whether `--invertible` has made it another model than the final one.
+    /// Whether `--invertible` has made it different from the final model.
     #[must_use]
     pub fn is_another(&self) -> bool {
         let on_bound = self.fitted.solution.structure.invertible;
         self.within_inverse && (on_bound || !self.left_out.is_empty())
     }
 
-    /// With play before the hysteresis, where that helps.
+    /// With a play in front of the hysteresis, if it helps.
     fn calmed(&self, records: &[Record], data: &Prepared) -> Result<Option<Calmed>, String> {
         let noise = records.iter().map(|record| noise(&record.input.values));
         let half_width = PLAY * noise.fold(0.0, f64::max);
@@ -105,11 +105,12 @@ impl HandOver {
         }))
     }
 
-    /// What is handed over of a final model. `invertible`: fit within what can be inverted.
+    /// The exported model of a final model. With `invertible`, it is fitted within the range that
+    /// has an inverse.
     ///
     /// # Errors
-    /// One sentence where the model cannot be fitted without what is left out, or not
-    /// within what can be inverted.
+    /// A message if the model cannot be fitted without the excluded parts, or not within the range
+    /// that has an inverse.
     pub fn new(
         records: &[Record],
         data: &Prepared,
@@ -224,7 +225,7 @@ fn records_own(data: &Prepared, solution: &Solution) -> Vec<LeftOut> {
         .collect()
 }
 
-/// The fit without what is left out, within what can be inverted if that is asked for.
+/// The fit without the excluded parts, if requested within the range that has an inverse.
 pub(crate) fn handed_over(base: &FinalFit, invertible: bool) -> Result<Solution, String> {
     match after_steps(&base.data, &base.solution) {
         Some(after) => {
@@ -262,7 +263,7 @@ fn stands_against(data: &Prepared, solution: &Solution) -> Result<bool, String> 
     Ok(false)
 }
 
-/// Whether all files can be inverted, and if not, why and what is nearest.
+/// Whether all files can be inverted; if not, the reason and the nearest model.
 fn feed_forward(
     data: &Prepared,
     solution: &Solution,

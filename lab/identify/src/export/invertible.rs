@@ -1,9 +1,9 @@
-//! Whether a model can be turned round for a feed-forward, and the fit of one that can.
+//! Whether a model can be inverted for a feed-forward, and the fit of an invertible model.
 //!
-//! A [`Compensator`] needs a transmission whose output rises with its input on every branch
-//! and no stage before or behind it. A free fit need not be so: the rig may well have a
-//! steeper loop than any model with an inverse. `--invertible` fits within the bound, by a
-//! constraint on the linear gains (`fit::tie`), and says what that costs.
+//! A [`Compensator`] needs a transmission whose output rises with its input on every branch,
+//! without input or output stages. A free fit need not satisfy this: the loop of the rig may be
+//! steeper than that of any invertible model. `--invertible` fits within the bound, by a constraint
+//! on the linear gains (`fit::tie`), and reports the increase of the error.
 
 use super::vector::load;
 use super::{ModelFile, MOST_TERMS};
@@ -22,31 +22,31 @@ use bowden::Real;
 use serde::de::DeserializeOwned;
 use serde::Serialize;
 
-/// Whether the model that is handed over can be a feed-forward.
+/// Whether the exported model can serve as a feed-forward.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FeedForward {
-    /// Whether `Compensator::try_new` takes it, in `f32` and in `f64`.
+    /// Whether `Compensator::try_new` accepts it, in `f32` and in `f64`.
     pub invertible: bool,
     /// Why not.
     pub reason: Option<String>,
-    /// The nearest model that it takes, if not this one.
+    /// The nearest invertible model, if this one is not invertible.
     pub nearest: Option<Nearest>,
-    /// What is to be known of its inverse, where it has one: its sign, and what is not proved in `f32`.
+    /// Cautions about its inverse, if there is one: its sign, and what is not proved in `f32`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub caution: Option<String>,
 }
 
-/// The nearest model that has an inverse, without a new fit.
+/// The nearest invertible model, without a refit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Nearest {
-    /// What is changed, in words.
+    /// The changes, in words.
     pub changed: String,
     /// Its errors, as shares of the output's standard deviation.
     pub nrmse: Segments,
 }
 
 impl FeedForward {
-    /// `yes`, with what is not proved, or `no, because …`.
+    /// `yes`, with cautions, or `no, because …`.
     #[must_use]
     pub fn words(&self) -> String {
         match (&self.reason, &self.caution) {
@@ -57,10 +57,10 @@ impl FeedForward {
     }
 }
 
-/// What stands against turning a model round; `None` where nothing does.
+/// The reason why a model is not invertible; `None` if it is.
 ///
 /// # Errors
-/// One sentence where the file is no model.
+/// A message if the file is not a model.
 pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
     if accepted::<f32>(file)? && accepted::<f64>(file)? {
         return Ok(None);
@@ -103,8 +103,8 @@ const PROVED_N: f64 = 4.0;
 const MEASURED_N: f64 = 10.0;
 const ABOVE: f64 = 1.39;
 
-/// What is to be known of the inverse that a model has: that no controller is designed around a torque
-/// that falls where its input rises, and what is not proved.
+/// Cautions about the inverse of a model: a torque that falls while its input rises, for which no
+/// controller is designed, and what is not proved.
 #[must_use]
 pub fn caution(file: &ModelFile) -> Option<String> {
     let t = file.transmission.as_ref()?;
@@ -145,7 +145,7 @@ fn bound(gain: f64, kappa_eta: f64, rho: f64) -> f64 {
     gain.abs() / (2.0 * kappa_eta.abs() * rho)
 }
 
-/// A number as people write it.
+/// A number in its usual notation.
 #[must_use]
 pub fn three_digits(value: f64) -> String {
     let digits = (2.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 12.0) as usize;
@@ -156,10 +156,10 @@ pub fn three_digits(value: f64) -> String {
     }
 }
 
-/// The loop again without stages among its names, where its final model has one.
+/// The search again without stages, if its final model has one.
 ///
 /// # Errors
-/// One sentence where the model without stages cannot be fitted at all.
+/// A message if the model without stages cannot be fitted.
 pub fn without_stages(
     data: &Prepared,
     ledger: &Ledger,
@@ -179,7 +179,7 @@ pub fn without_stages(
     Ok(Some(FinalFit::new(data, &anew)))
 }
 
-/// The stages among the names of a solution.
+/// The stages among the terms of a solution.
 #[must_use]
 pub fn stages(data: &Prepared, solution: &Solution) -> Vec<String> {
     let terms = solution.structure.terms.iter();
@@ -187,7 +187,7 @@ pub fn stages(data: &Prepared, solution: &Solution) -> Vec<String> {
     stages.map(|t| term_name(data, t)).collect()
 }
 
-/// In what a compensator differs from the model that has these terms; nothing where it does not.
+/// The differences between a compensator and the model with these terms; `None` if there are none.
 #[must_use]
 pub fn words<const N: usize>(changed: &Changed<f64, N>, terms: &[Term<f64>]) -> String {
     let lowered = [("sigma", changed.sigma), ("rho", changed.rho)];
@@ -204,11 +204,11 @@ pub fn words<const N: usize>(changed: &Changed<f64, N>, terms: &[Term<f64>]) -> 
     all.join(", ")
 }
 
-/// The nearest model with an inverse, as `Compensator::try_nearest` makes it, and its
-/// errors: nothing is fitted again. `None` where there is none, or a model for each record.
+/// The nearest invertible model from `Compensator::try_nearest`, and its errors, without a refit.
+/// `None` if there is none, or if there is a model for each record.
 ///
 /// # Errors
-/// One sentence where a file is no model.
+/// A message if a file is not a model.
 pub fn nearest(
     data: &Prepared,
     solution: &Solution,
@@ -236,8 +236,8 @@ pub fn nearest(
     }))
 }
 
-/// What a model leaves of the filtered output; each record from the hysteresis state at its
-/// start that the fit has found.
+/// The residual of a model in the filtered output; each record starts from the fitted hysteresis
+/// state.
 fn left_by(
     data: &Prepared,
     solution: &Solution,

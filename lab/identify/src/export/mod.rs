@@ -32,10 +32,10 @@ use serde::{Deserialize, Serialize};
 /// Terms for which a [`FixedModel`](bowden::model::FixedModel) has room, and terms and channels for
 /// which the C interface has: `BOWDEN_TERMS`, `BOWDEN_CHANNELS`.
 const ROOM: usize = 16;
-/// Most terms of a model that is handed over.
+/// Maximum number of terms of an exported model.
 pub const MOST_TERMS: usize = 32;
 
-/// A model as it stands in a file, schema `bowden.model/1`.
+/// A model file, schema `bowden.model/1`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelFile {
@@ -45,12 +45,12 @@ pub struct ModelFile {
     pub mode: String,
     /// Names of the channels that terms may read, in the order of the sample's channels.
     pub channels: Vec<String>,
-    /// The transmission, where there is one.
+    /// The transmission, if there is one.
     pub transmission: Option<TransmissionFile>,
     /// The effects, in order.
     #[serde(default)]
     pub terms: Vec<TermFile>,
-    /// What the numbers mean and what they are worth; the core does not read it.
+    /// The meaning and the accuracy of the numbers; the core does not read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<About>,
 }
@@ -81,7 +81,7 @@ pub struct TermFile {
     pub effect: String,
     /// `input`, or the name of a channel.
     pub source: String,
-    /// Position from which the effect measures.
+    /// Origin from which the effect measures the position.
     #[serde(default)]
     pub origin: f64,
     /// Its gain.
@@ -149,13 +149,13 @@ impl TermFile {
 }
 
 impl ModelFile {
-    /// The fitted model; where each record has gains of its own, with the first one's.
+    /// The fitted model; with separate gains for each record, those of the first one.
     #[must_use]
     pub fn new(data: &Prepared, solution: &Solution) -> Self {
         Self::of_record(data, solution, 0)
     }
 
-    /// The fitted model with the gains of one record, where each has its own.
+    /// The fitted model with the separate gains of one record.
     #[must_use]
     pub fn of_record(data: &Prepared, solution: &Solution, record: usize) -> Self {
         let own = 3 * record.min(solution.structure.own_gains.saturating_sub(1));
@@ -193,7 +193,7 @@ impl ModelFile {
     /// As TOML.
     ///
     /// # Errors
-    /// Where a number cannot be written, which no fitted model has.
+    /// If a number is not finite, which does not occur in a fitted model.
     pub fn toml(&self) -> Result<String, toml::ser::Error> {
         let remark = self.about.as_ref().map_or_else(String::new, About::remark);
         Ok(format!("# {remark}\n{}", toml::to_string(self)?))
@@ -202,17 +202,17 @@ impl ModelFile {
     /// The core's model.
     ///
     /// # Errors
-    /// One sentence that says which part the core refuses.
+    /// A message with the part that the core refuses.
     pub fn model<const N: usize>(&self) -> Result<Model<f64, N>, String> {
         self.model_in()
     }
 
     /// The core's model in either precision, as firmware would run it.
     ///
-    /// The core reads the file itself: what it takes is what a user's `toml::from_str` takes.
+    /// The core reads the file itself, so it accepts the same files as a user's `toml::from_str`.
     ///
     /// # Errors
-    /// One sentence that says which part the core refuses.
+    /// A message with the part that the core refuses.
     pub fn model_in<T, const N: usize>(&self) -> Result<Model<T, N>, String>
     where
         T: Real + DeserializeOwned,

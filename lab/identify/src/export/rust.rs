@@ -23,8 +23,8 @@ fn number(value: f64) -> String {
     format!("{:?}", value as f32)
 }
 
-/// Where the model came from, what it is worth, and what it lacks.
-/// `play` is the name of the play operator where the file is read.
+/// The origin of the model, its errors and its excluded parts. `play` is the name of the play
+/// operator in the language of the file.
 pub(super) fn origin(about: &About, play: &str) -> String {
     let mut out = String::new();
     let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
@@ -85,11 +85,11 @@ fn per_cent(share: f64) -> String {
 }
 
 impl ModelFile {
-    /// As a Rust file that builds the model in firmware: `fixed_model()`, `model()`, `ranges()` for
+    /// The model as a Rust file for firmware: `fixed_model()`, `model()`, `ranges()` for
     /// `Compensator::with_ranges`, and the time constant for `Rates`.
     ///
     /// # Errors
-    /// One sentence where the catalogue has no such effect.
+    /// A message if the catalogue has no such effect.
     pub fn rust(&self) -> Result<String, String> {
         let none = About::default();
         let about = self.about.as_ref().unwrap_or(&none);
@@ -435,7 +435,7 @@ impl TermFile {
     /// The effect that the term names.
     ///
     /// # Errors
-    /// One sentence where the catalogue has no such effect, or not with these shapes.
+    /// A message if the catalogue has no such effect, or not with these shapes.
     pub fn effect(&self) -> Result<Effect<f64>, String> {
         let shapes: Vec<f64> = self.shapes.iter().map(|s| s.value).collect();
         Effect::try_from_name(&self.effect, &shapes)

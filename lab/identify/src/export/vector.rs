@@ -3,8 +3,8 @@
 //! There is one CSV file next to each model file. A firmware build of the model is correct if it
 //! steps through the rows from a new state and reproduces the last columns, on any processor. Each
 //! row is one sample: `dt`, the input and its rates, the load, each channel and its rates, then the
-//! outputs of the model in `f32` and in `f64`. The samples are the shortest decimals of numbers of
-//! `f32`: read as `f32` or as `f64`, they are what each was given.
+//! outputs of the model in `f32` and in `f64`. The samples are the shortest decimals of `f32`
+//! numbers, so both float types read exactly these numbers.
 
 use super::{ModelFile, MOST_TERMS};
 use crate::problem::Prepared;
@@ -14,10 +14,10 @@ use bowden::model::{Model, ModelState, Sample};
 use bowden::Real;
 use std::fmt::Write as _;
 
-/// At most so many samples are written, spread evenly over the record.
+/// Maximum number of samples, evenly spaced over the record.
 pub const MOST_ROWS: usize = 400;
 
-/// One sample, as it stands in the file.
+/// One sample of the file.
 struct Row {
     dt: f64,
     input: Motion<f64>,
@@ -33,7 +33,7 @@ fn short(value: f64) -> f64 {
 /// The vector of one record as CSV.
 ///
 /// # Errors
-/// One sentence that says which part of the model the core refuses.
+/// A message with the part of the model that the core refuses.
 pub fn csv(data: &Prepared, record: usize, file: &ModelFile) -> Result<String, String> {
     let rows = rows(data, record);
     let single = answers::<f32>(&rows, &file.model_in()?);
@@ -68,7 +68,7 @@ fn header(file: &ModelFile) -> String {
     )
 }
 
-/// Whether a file that begins with this line is a test vector, of whatever channels.
+/// Whether a file that begins with this line is a test vector, with any channels.
 #[must_use]
 pub fn is_header(line: &str) -> bool {
     let line = line.trim_end();

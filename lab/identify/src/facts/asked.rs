@@ -34,7 +34,7 @@ impl Asked {
     /// Reads one record.
     ///
     /// # Errors
-    /// One line that names the file.
+    /// A message with the file.
     pub fn read(&self, path: &Path) -> Result<Record, String> {
         self.read_or_refuse(path).map_err(|e| e.to_string())
     }
@@ -42,7 +42,7 @@ impl Asked {
     /// Reads a record.
     ///
     /// # Errors
-    /// The refusal, with its position in the file.
+    /// The error, with its position in the file.
     pub fn read_or_refuse(&self, path: &Path) -> Result<Record, RecordError> {
         read(path, &self.options)
     }
@@ -51,7 +51,7 @@ impl Asked {
     /// and a pipe can be read only once.
     ///
     /// # Errors
-    /// The refusal, with its position in the file.
+    /// The error, with its position in the file.
     pub fn read_with_source(&self, path: &Path) -> Result<(Record, Source), RecordError> {
         read_with_source(path, &self.options)
     }
@@ -59,7 +59,7 @@ impl Asked {
     /// Reads a record in memory; `label` replaces the name of its file.
     ///
     /// # Errors
-    /// One line that names the label.
+    /// A message with the label.
     pub fn read_text(&self, csv: &[u8], label: &str) -> Result<Record, String> {
         parse(csv, label, &self.options).map_err(|e| e.to_string())
     }
@@ -67,7 +67,7 @@ impl Asked {
     /// The same.
     ///
     /// # Errors
-    /// The refusal, with its place.
+    /// The error, with its position.
     pub fn read_text_or_refuse(&self, csv: &[u8], label: &str) -> Result<Record, RecordError> {
         parse(csv, label, &self.options)
     }
@@ -75,8 +75,8 @@ impl Asked {
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
-    /// One line that names the file; also if a file, or one with the same samples, is given
-    /// twice, if two files disagree on their columns, or if there are too many.
+    /// A message with the file; also if a file, or one with the same samples, is given twice, if
+    /// two files disagree on their columns, or if there are too many.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
         Self::all_of(paths, |path| self.read(path))
     }
@@ -98,8 +98,8 @@ impl Asked {
         Ok((records, sources))
     }
 
-    /// As [`read_together_with_sources`](Self::read_together_with_sources), of files in memory, each
-    /// with the label that stands for its name.
+    /// Like [`read_together_with_sources`](Self::read_together_with_sources), for files in memory,
+    /// each with a label instead of its name.
     ///
     /// # Errors
     /// As [`read_together`](Self::read_together).
@@ -175,8 +175,8 @@ impl Asked {
 
     /// One record, or several on common grids, and the baseline model.
     ///
-    /// A file with gains of its own says nothing about the gains of another, so that the end of
-    /// each file is held out then.
+    /// With separate gains, one file does not determine the gains of another, so the end of each
+    /// file is held out.
     pub(super) fn prepare_all(
         &self,
         records: &[Record],

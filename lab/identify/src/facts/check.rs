@@ -20,7 +20,7 @@ pub struct CheckFacts {
     pub line: Line,
     /// Standard deviation of the filtered output, in its unit.
     pub deviation: f64,
-    /// Rms error of the model as it is, in the output's unit.
+    /// Rms error of the unchanged model, in the output's unit.
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
@@ -112,7 +112,7 @@ impl ModelOfFile {
     /// Refuses a model that does not describe its own records.
     ///
     /// # Errors
-    /// One sentence if its verdict is `no-input-dependence`.
+    /// A message if its verdict is `no-input-dependence`.
     pub fn could_hold(&self) -> Result<(), String> {
         match self.given.about.verdict.as_deref() {
             Some("no-input-dependence") => Err(
@@ -133,7 +133,7 @@ impl ModelOfFile {
 /// Runs a model on another record.
 ///
 /// # Errors
-/// One line that names the record.
+/// A message with the record.
 pub fn check(
     model: &ModelOfFile,
     record: &Path,

@@ -79,7 +79,7 @@ impl Handed {
     /// The bytes of the model's file.
     ///
     /// # Errors
-    /// One sentence that names the part that cannot be written.
+    /// A message with the part that cannot be written.
     pub fn file(&self, form: Form) -> Result<Vec<u8>, String> {
         match form {
             Form::Toml => {
@@ -94,7 +94,7 @@ impl Handed {
     /// Samples and the expected outputs of the model, as CSV.
     ///
     /// # Errors
-    /// One sentence that names the part of the model that the core refuses.
+    /// A message with the part of the model that the core refuses.
     pub fn vector(&self) -> Result<&str, String> {
         self.vector.as_deref().map_err(Clone::clone)
     }
@@ -173,7 +173,7 @@ impl Close {
 /// Identifies a model. `tell` receives one message per step.
 ///
 /// # Errors
-/// One line if the records cannot be prepared or the baseline model cannot be fitted; if a model is
+/// A message if the records cannot be prepared or the baseline model cannot be fitted; if a model is
 /// requested, also if no model can be exported.
 pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
     let asked = &question.asked;

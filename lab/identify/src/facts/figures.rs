@@ -54,7 +54,7 @@ impl Figures {
     /// The data of a page for an identified record and a named model.
     ///
     /// # Errors
-    /// One sentence if the parts of the model cannot be computed.
+    /// A message if the parts of the model cannot be computed.
     pub fn of_close(
         data: &Prepared,
         ledger: &Ledger,
@@ -79,7 +79,7 @@ impl Figures {
     /// The data of a page for a validation.
     ///
     /// # Errors
-    /// One sentence if the parts of the model cannot be computed.
+    /// A message if the parts of the model cannot be computed.
     pub fn of_check(check: &Check) -> Result<Self, String> {
         let moved = check.line.of(&check.model.prediction);
         let models = [

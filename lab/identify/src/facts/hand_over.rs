@@ -90,7 +90,7 @@ pub(super) fn useless(hand: &HandOver) -> Option<String> {
     })
 }
 
-/// The columns whose spikes reach a model in firmware, where no line replaces them.
+/// The columns whose spikes reach a model in firmware, because no line replaces them there.
 fn spikes(data: &Prepared) -> String {
     let read = std::iter::once(&data.input).chain(&data.channels);
     let spoilt = |name: &str| {

@@ -72,7 +72,7 @@ pub struct Facts {
     pub correlated_for: Option<f64>,
     /// The verdict.
     pub verdict: Verdict,
-    /// What a reader must know besides the missing mechanisms, the most important first.
+    /// The findings besides the missing mechanisms, the most important first.
     pub findings: Vec<Told>,
     /// The verdict in a few sentences.
     pub sentence: String,
@@ -81,7 +81,7 @@ pub struct Facts {
 /// Detail of the facts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
-    /// Everything except the models of the single rounds.
+    /// Everything except the models after each term.
     Ledger,
     /// Also the model after each term, at the cost of one fit each.
     EachRound,
@@ -90,7 +90,7 @@ pub enum Detail {
 /// A rejected candidate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RejectedFacts {
-    /// Its name for people.
+    /// Its name in words.
     pub title: String,
     /// Its family.
     pub family: &'static str,
@@ -107,7 +107,7 @@ pub struct RejectedFacts {
 pub struct UnknownFacts {
     /// Name of the variable.
     pub variable: &'static str,
-    /// The variable for people.
+    /// The variable in words.
     pub words: String,
     /// Its unit, if the record states it.
     pub unit: Option<String>,

@@ -15,7 +15,7 @@ use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Record;
 
-/// What can be done about what records leave open.
+/// A planned experiment for what the records leave open.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The experiment; `None` if none of the known motions would help.
@@ -44,10 +44,10 @@ pub struct Planned {
     pub csv: String,
 }
 
-/// Plans an experiment that answers what one or several records of one rig leave open.
+/// Plans an experiment for what one or several records of one rig leave open.
 ///
 /// # Errors
-/// One line where the records cannot be closed, or have no model.
+/// A message if no model can be identified from the records.
 pub fn plan(records: &[Record], asked: &Asked, tell: &dyn Fn(&str)) -> Result<Plan, String> {
     let (data, structure) = asked.prepare_moving(records)?;
     let label = label(records);

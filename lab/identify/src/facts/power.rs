@@ -60,7 +60,7 @@ pub struct ShapeFacts {
 /// `effects`: names of effects or families; all if it is empty.
 ///
 /// # Errors
-/// One line if no model can be identified from the record or an effect is unknown.
+/// A message if no model can be identified from the record or an effect is unknown.
 pub fn power(
     record: &Record,
     asked: &Asked,

@@ -20,7 +20,7 @@ impl Source {
     /// The source of a file.
     ///
     /// # Errors
-    /// One line that names the file.
+    /// A message with the file.
     pub fn of_file(path: &Path) -> Result<Self, String> {
         let label = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|e| format!("{label}: {e}"))?;

@@ -108,7 +108,7 @@ mod tests {
         DMatrix::from_columns(&columns)
     }
 
-    /// Two files with a state each, and what they have in common.
+    /// Two files, each with a separate state, and their common columns.
     fn slopes() -> Vec<Stretch> {
         vec![
             column(0..ROWS, 1),

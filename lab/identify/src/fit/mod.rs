@@ -22,10 +22,10 @@ pub use solution::{Segments, Solution};
 use starts::starts;
 pub use starts::Known;
 
-/// Fits a structure: short searches from all starts on a coarse grid, then full searches from
-/// the best three, of which those that reach one optimum are searched once.
+/// Fits a structure: short searches from all starts on a coarse grid, then full searches from the
+/// best three; starts that reach the same optimum are searched once.
 ///
-/// `from` is the optimum of the round before (its structure is a prefix of this one).
+/// `from` is the optimum of the previous round (its structure is a prefix of this one).
 /// `stage_gain` starts the gain of an output stage that is new.
 #[must_use]
 pub fn fit(
@@ -107,7 +107,7 @@ fn distinct(free: &[Free], reached: Vec<(f64, Vec<f64>)>) -> Vec<(f64, Vec<f64>)
     kept
 }
 
-/// Searches the optimum again from a solution, on another split of its record.
+/// Refines a solution on another split of its record.
 #[must_use]
 pub fn refit(data: &Prepared, from: &Solution) -> Option<Solution> {
     let structure = &from.structure;

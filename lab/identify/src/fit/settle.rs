@@ -1,4 +1,4 @@
-//! Assembles solutions from the values that searches reached, and chooses among them.
+//! Assembles solutions from the results of the searches, and chooses among them.
 
 use super::search::{evaluate, Evaluation};
 use super::{Segments, Solution};

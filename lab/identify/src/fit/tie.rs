@@ -1,10 +1,10 @@
 //! The bound within which a transmission has an inverse, as a bound on its linear gains.
 //!
-//! In torque mode `tau_o = B·tau_i − kappa_eta·eta − T0` rises with `tau_i` on every branch
-//! where `2·sigma·rho·kappa_eta <= B` ([`Transmission::inverse`]). For a given shape that is
-//! a cone over the two gains B and kappa_eta, so the linear solve of each step can keep it
-//! exactly: on its edge B is `2·sigma·rho·kappa_eta`, and the columns of the input and of eta
-//! are one column. The search then runs over shapes and never leaves the invertible range.
+//! In torque mode `tau_o = B·tau_i − kappa_eta·eta − T0` rises with `tau_i` on every branch if
+//! `2·sigma·rho·kappa_eta <= B` ([`Transmission::inverse`]). For a given shape this is a cone over
+//! the two gains B and kappa_eta, so the linear solve of each step can keep it exactly: on its edge
+//! B is `2·sigma·rho·kappa_eta`, and the columns of the input and of eta are one column. The search
+//! then runs over shapes and never leaves the invertible range.
 //!
 //! [`Transmission::inverse`]: bowden::transmission::Transmission::inverse
 
@@ -42,8 +42,8 @@ impl Tie {
     }
 }
 
-/// The bounds of a structure, one for each record with gains of its own; none if the structure
-/// need not be invertible.
+/// The bounds of a structure, one for each record with separate gains; none if the structure need
+/// not be invertible.
 pub(super) fn ties(structure: &Structure, free: &[Free], values: &[f64]) -> Vec<Tie> {
     let value = |role| free.iter().position(|f| f.role == role).map(|i| values[i]);
     let (Some(rho), Some(sigma), true) =

@@ -16,7 +16,7 @@ use std::ops::Range;
 /// An effect that may be missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
-    /// The effect with a trial shape, and what it reads.
+    /// The effect with a trial shape, and its source.
     pub term: FitTerm,
     /// Its family.
     pub family: &'static str,
@@ -30,8 +30,8 @@ impl From<FitTerm> for Candidate {
 }
 
 impl Candidate {
-    /// The effect that is the same function with the opposite sign, of whatever motion:
-    /// `play(x) - x` of a backlash is `-r` times the `(x - play(x))/r` of a presliding.
+    /// The effect that is the same function with the opposite sign, for any motion: `play(x) - x`
+    /// of a backlash is `-r` times the `(x - play(x))/r` of a presliding.
     #[must_use]
     pub fn twin(term: &FitTerm) -> Option<Self> {
         let r = term.effect.shape(0)?;
@@ -50,7 +50,7 @@ impl Candidate {
         entry(effect.name()).map_or_else(Vec::new, |own| own.variables(effect, self.term.source))
     }
 
-    /// Whether the other is the same effect on the same channel, whatever its shape.
+    /// Whether the other is the same effect on the same channel, with any shape.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         let name = |one: &Self| (one.term.effect.name(), one.term.source);
@@ -58,8 +58,8 @@ impl Candidate {
     }
 }
 
-/// Rank among alternatives, of which the lowest is named: the rank of the family, then the effect's
-/// position in the core's catalogue.
+/// Rank among alternatives; the effect with the lowest rank is named: the rank of the family, then
+/// the effect's position in the core's catalogue.
 #[must_use]
 pub fn simplicity(effect: &Effect<f64>) -> (usize, usize) {
     let own = CATALOGUE

@@ -12,7 +12,7 @@ use bowden::model::Source;
 /// its first member. Shapes start at the record's scale.
 ///
 /// # Errors
-/// One sentence that lists what can be declared.
+/// A message with the allowed effects.
 pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
     let (name, given) = match name.split_once('@') {
         None => (name, None),
@@ -73,7 +73,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
     })
 }
 
-/// The families of which the first effect can be declared.
+/// The families whose first effect can be part of the baseline model.
 fn families() -> Vec<&'static str> {
     let can = |name: &&str| first_of(name).is_some_and(|entry| entry.declared != Declared::Never);
     let mut names: Vec<&'static str> = CATALOGUE
@@ -89,7 +89,7 @@ fn families() -> Vec<&'static str> {
 /// The structure that a `--baseline` list means.
 ///
 /// # Errors
-/// One sentence if a name is unknown or repeated.
+/// A message if a name is unknown or repeated.
 pub fn structure(list: &[String], data: &Prepared) -> Result<Structure, String> {
     let mut structure = Structure::default();
     for name in list {

@@ -3,7 +3,7 @@
 use super::range::Range;
 use super::term::TermId;
 
-/// What a free parameter is.
+/// The role of a free parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Bouc-Wen rho.

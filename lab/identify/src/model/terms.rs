@@ -16,7 +16,7 @@ pub struct Terms {
     next: u32,
 }
 
-/// Whether they are the same effects in the same order, whatever their identities.
+/// Whether they are the same effects in the same order, with any identities.
 impl PartialEq for Terms {
     fn eq(&self, other: &Self) -> bool {
         self.own == other.own
@@ -51,7 +51,7 @@ impl FromIterator<FitTerm> for Terms {
 }
 
 impl Terms {
-    /// Adds a term at the end, with an identity of its own.
+    /// Adds a term at the end, with a new identity.
     pub fn push(&mut self, term: FitTerm) -> TermId {
         let id = TermId(self.next);
         self.next += 1;

@@ -35,7 +35,7 @@ impl Unit {
         self
     }
 
-    /// As text: "N·s/mm"; "1" without dimension; `None` where a column has no unit.
+    /// As text: "N·s/mm"; "1" without dimension; `None` if a column has no unit.
     #[must_use]
     pub fn text(&self) -> Option<String> {
         if self.unknown {

@@ -11,10 +11,10 @@ use std::ops::Range;
 /// A return by this share of the half-range is a reversal; a smaller one is due to the sensor.
 const REVERSAL: f64 = 0.002;
 
-/// A quantity that is measured or follows from what is measured.
+/// A quantity that is measured or computed from measured quantities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
-    /// Position, or the value of a channel that is none: a load, a temperature.
+    /// Position, or the value of another channel: a load, a temperature.
     Position(Source),
     /// Velocity.
     Velocity(Source),
@@ -182,7 +182,7 @@ impl Variable {
         })
     }
 
-    /// Whether it starts anew with each stroke.
+    /// Whether it restarts with each stroke.
     #[must_use]
     pub fn is_local(self) -> bool {
         matches!(self, Self::ReversalDistance(_) | Self::ReversalTime(_))

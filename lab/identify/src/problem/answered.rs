@@ -10,10 +10,10 @@ impl Prepared {
     /// The `target` for an output of each record with these values, one per sample.
     ///
     /// Equivalent to preparing the records again with their input, their cut-off and this output,
-    /// without repeating what is the same.
+    /// but without repeating the common steps.
     ///
     /// # Errors
-    /// One sentence if these are not the records that were prepared.
+    /// A message if these are not the records that were prepared.
     pub(crate) fn answered(
         &self,
         records: &[Record],

@@ -4,13 +4,13 @@ use crate::record::{self, Column, Defect, DefectKind, Record};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Spikes longer than this share of a period of the cut-off are left out. For shorter ones, the
-/// error of a line is smaller than what the filter passes.
+/// Spikes longer than this share of a period of the cut-off are excluded. For shorter spikes, the
+/// error of a straight line is smaller than the part that the filter passes.
 const LONG: f64 = 0.125;
 
-/// Stretches without a measurement, which are left out of the fit, each with the margin that is
-/// left out with it. The error of a clipped top is small, and so is the part that the filter
-/// spreads beyond it; but a line through a stuck stretch is as wrong as the ends of the record.
+/// Stretches without a measurement, which are excluded from the fit, each with its margin. The
+/// error of a clipped top is small, and so is the part that the filter spreads beyond it; but a
+/// line through a stuck stretch is as wrong as the ends of the record.
 ///
 /// `period` and `edge` are in estimation samples, a period of the cut-off has `samples` of the
 /// record.

@@ -19,7 +19,7 @@ const RATES_APART: f64 = 16.0;
 /// covered its half-range this many times: by then the hysteresis has forgotten its
 /// unknown state at the first sample ...
 const FORGOTTEN: f64 = 4.0;
-/// ... but no more than this share of the record is left out for it.
+/// Largest share of the record that is excluded for this reason.
 const LEFT_OUT: f64 = 0.25;
 
 /// What all records have in common.
@@ -62,7 +62,7 @@ impl Prepared {
     /// Puts a record on its grids.
     ///
     /// # Errors
-    /// One sentence if the record is too short for the cut-off.
+    /// A message if the record is too short for the cut-off.
     pub fn new(record: &Record, preparation: Preparation) -> Result<Self, String> {
         Self::joined(std::slice::from_ref(record), preparation, HeldOut::Trailing)
     }
@@ -70,13 +70,12 @@ impl Prepared {
     /// Puts several records of one rig one after another on common grids: one step, one cut-off.
     /// The records have the same mode and the same channels in the same order.
     ///
-    /// The step is that of the fastest record; slower ones are interpolated by cubics.
-    /// Of a record that is held out as a whole nothing is fitted, not even its state at
-    /// the start; so what comes before the input has covered its half-range four times is
-    /// not counted.
+    /// The step is that of the fastest record; slower ones are interpolated by cubics. Nothing is
+    /// fitted to a record that is held out as a whole, not even its state at the start. Its samples
+    /// count only after the input has covered its half-range four times.
     ///
     /// # Errors
-    /// One sentence if a record is too short for the cut-off or cannot be put on a common grid; it
+    /// A message if a record is too short for the cut-off or cannot be put on a common grid; it
     /// names the file if there are several.
     pub fn joined(
         records: &[Record],
@@ -134,8 +133,8 @@ impl Prepared {
         whole.finish(first, &grid, held_out)
     }
 
-    /// The row from which on what came before the first record no longer counts: by then
-    /// the input has covered its half-range four times, or a quarter of the record is over.
+    /// The first row that counts: the input has covered its half-range four times, or a quarter of
+    /// the record is over.
     #[must_use]
     pub fn settled(&self) -> usize {
         let distance = FORGOTTEN * self.input.reach;
@@ -459,7 +458,7 @@ fn path(input: &Channel, pieces: &[Piece], stride: usize) -> Vec<f64> {
     path
 }
 
-/// The row of a record after which its start no longer matters.
+/// The row of a record after which its initial state has no influence.
 fn settled(piece: &Piece, path: &[f64], distance: f64) -> usize {
     let begin = path[piece.rows.start];
     let most = piece.rows.start + (LEFT_OUT * piece.rows.len() as f64) as usize;

@@ -1,7 +1,7 @@
 //! The clock that measures a run.
 //!
-//! `std::time::Instant` panics on `wasm32-unknown-unknown`, which has no clock of its own. There the
-//! host supplies one (`set_clock`); without it no time passes, so that no time limit ends a search.
+//! `std::time::Instant` panics on `wasm32-unknown-unknown`, which has no clock. There the host
+//! supplies a clock (`set_clock`); without it no time passes, so no time limit ends a search.
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod source {

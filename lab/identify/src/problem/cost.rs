@@ -22,7 +22,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Since the program began, of all threads.
+    /// Since the start of the program, for all threads.
     #[must_use]
     pub fn so_far() -> Self {
         Self {
@@ -33,7 +33,7 @@ impl Counts {
         }
     }
 
-    /// What came after `earlier`.
+    /// The operations since `earlier`.
     #[must_use]
     pub fn since(self, earlier: Self) -> Self {
         Self {

@@ -38,7 +38,7 @@ pub(super) fn of(
 /// A bin of the spectrum is part of a line from this many medians of its neighbours on. Of white
 /// noise one bin of a thousand million is.
 const LINE: f64 = 30.0;
-/// The line goes on to both sides as far as its bins have this many.
+/// A line extends to both sides as far as its bins exceed the level by this factor.
 const SKIRT: f64 = 4.0;
 /// Neighbours that are looked at together: many more than the bins of a line under a Hann window.
 const NEIGHBOURS: usize = 100;
@@ -72,8 +72,8 @@ fn share_of_lines(power: &[f64], from: f64) -> f64 {
     }
 }
 
-/// The same of a record that is slower than the grid: at its own rate. Of what is laid between its
-/// samples the top of the band is empty.
+/// The same for a record that is slower than the grid, at its own rate: interpolated samples have
+/// no noise at the top of the band.
 pub(super) fn of_slower(record: &Record, on_grid: &Uniform, cutoff: f64) -> Result<f64, String> {
     let own = on_grid.at_own_rate(&record.time)?;
     let output = own.signal(&bridged(record, &record.output));
@@ -105,7 +105,7 @@ mod tests {
         of(output, &smoothed, [1.0, 0.0], (cutoff, rate))
     }
 
-    /// A record whose stamps jitter, or of which rows are lost, has the noise of its sensor.
+    /// A record with jittering time stamps or lost rows has the noise of its sensor.
     #[test]
     fn what_lies_between_the_samples_of_a_grid_is_less_noisy_than_they_are() {
         let (cutoff, rate, samples) = (7.0, 500.0, 20_000);

@@ -5,10 +5,10 @@
 //! smoothed signals. Then every column of the regression and the output pass the same
 //! zero-phase filter at f_c. Noise therefore cannot create a spurious viscous term or delay.
 //!
-//! Three grids: the record's own rate; the *work* grid, on which hysteresis and
-//! effects run (about 24 samples per period of f_c); the *estimation* grid, on which
-//! least squares runs (about 4 per period, because the filter removes what is above f_c). Starts
-//! are searched on a coarser work grid that ends with the fit segment.
+//! Three grids: the record's own rate; the *work* grid, on which hysteresis and effects run (about
+//! 24 samples per period of f_c); the *estimation* grid, on which least squares runs (about 4 per
+//! period, because the filter removes frequencies above f_c). Starts are searched on a coarser work
+//! grid that ends with the fit segment.
 //!
 //! Several records of one rig follow one another on one set of grids
 //! ([`Prepared::joined`]). A filter, the hysteresis and an effect with memory restart with each
@@ -56,7 +56,7 @@ pub fn together(records: usize) -> Result<(), String> {
 /// How to prepare the record.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Preparation {
-    /// Cut-off \[Hz\]; from the spectrum of the input where `None`.
+    /// Cut-off \[Hz\]; default: from the spectrum of the input.
     pub cutoff: Option<f64>,
 }
 
@@ -65,7 +65,7 @@ pub struct Preparation {
 pub struct Channel {
     /// Name as in the record, or as mapped by the user.
     pub name: String,
-    /// Unit of the position, where the record states one.
+    /// Unit of the position, if the record states one.
     pub unit: Option<String>,
     /// How it is computed from other measured quantities, if it is not measured itself.
     pub definition: Option<String>,
@@ -85,7 +85,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// A channel on the work grid; `used` is what the fit may see of it.
+    /// A channel on the work grid; `used` contains the samples that the fit may use.
     fn new(column: &Column, motion: Vec<Motion<f64>>, used: &[Range<usize>]) -> Self {
         let mut channel = Self {
             name: column.name.clone(),
@@ -222,7 +222,7 @@ pub struct Prepared {
     pub output_name: String,
     /// The output's unit.
     pub output_unit: Option<String>,
-    /// The output behind the smoother, on the work grid.
+    /// The output after the smoother, on the work grid.
     output: Vec<f64>,
     /// The output through the filter, on the estimation grid.
     pub target: Vec<f64>,
@@ -248,7 +248,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The output behind the smoother, on the work grid.
+    /// The output after the smoother, on the work grid.
     #[must_use]
     pub fn output(&self) -> &[f64] {
         &self.output
@@ -293,7 +293,7 @@ impl Prepared {
         wide
     }
 
-    /// The same records with only those rows of the fit segment for which `kept` holds.
+    /// The same records with only the rows of the fit segment for which `kept` is true.
     #[must_use]
     pub fn with_rows(mut self, kept: impl Fn(usize) -> bool) -> Self {
         self.split.fit.retain(|&row| kept(row));
@@ -318,8 +318,8 @@ impl Prepared {
         filtered_all(&self.smoother, &self.pieces, self.stride, columns)
     }
 
-    /// Columns of the work grid through the filter, on the estimation grid: each on the records
-    /// alone on which it is not zero.
+    /// Columns of the work grid through the filter, on the estimation grid: each only on the
+    /// records on which it is not zero.
     #[must_use]
     pub fn filtered_stretches(&self, columns: &[&Stretch]) -> Vec<Stretch> {
         let columns = columns.iter().map(|c| (c.range().start, c.values()));

@@ -10,7 +10,7 @@ use std::ops::Range;
 const RANGE: f64 = 0.01;
 /// ... and this multiple of its noise, both of the value at that end of the record.
 const NOISE: f64 = 8.0;
-/// Rest is left out from this share of the record on.
+/// Rest is excluded if it takes at least this share of the record.
 const LEAST: f64 = 0.1;
 /// Minimum number of rows that must remain.
 pub(super) const FEWEST: usize = 160;
@@ -48,7 +48,7 @@ fn resting(signals: &[(Vec<f64>, f64)], edge: usize, row: impl Fn(usize) -> usiz
     signals.iter().map(of).min().unwrap_or(0)
 }
 
-/// The notes on rest that is left out at the start and at the end \[s\], and on the time \[s\] for
+/// The notes on rest that is excluded at the start and at the end \[s\], and on the time \[s\] for
 /// which the input rests within its noise.
 pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<String> {
     let said = |(is, seconds): (bool, f64), which: &str| {

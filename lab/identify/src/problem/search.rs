@@ -4,11 +4,11 @@ use super::{filtered, Channel, Piece, Prepared, Split, ZeroPhase};
 use std::ops::Range;
 
 impl Prepared {
-    /// The same records as far as the fit segments go, on a work grid that is coarser
-    /// where the estimation grid allows; for the search of shapes.
+    /// The same records up to the end of the fit segments, on a work grid that is coarser if the
+    /// estimation grid allows it; for the search of shapes.
     ///
-    /// `coarse` = false keeps the work grid. The estimation grid stays as it is, but for
-    /// what is cut off at each record's end; `path` is not cut.
+    /// `coarse` = false keeps the work grid. The estimation grid is unchanged, except for the part
+    /// that is cut off at each record's end; `path` is not cut.
     #[must_use]
     pub fn for_search(&self, coarse: bool) -> Self {
         let per_period = 1.0 / (self.cutoff * self.dt);

@@ -102,8 +102,8 @@ pub fn power(signal: &[f64]) -> Vec<f64> {
     buffer[..=size / 2].iter().map(|c| c.norm_sqr()).collect()
 }
 
-/// Power at each multiple of one over the fit segment's length, mean removed and gaps taken
-/// as zero, under a window that is told the place and the length \[samples\].
+/// Power at each multiple of one over the fit segment's length, mean removed and gaps taken as
+/// zero, under a window, a function of position and length \[samples\].
 pub(crate) fn power_of_fit(
     data: &Prepared,
     signal: &[f64],

@@ -23,7 +23,7 @@ pub struct Autocorrelation {
     pub step: f64,
     /// One estimate for each residual.
     pub residuals: Vec<Vec<f64>>,
-    /// The autocorrelation of white noise behind the filter.
+    /// The autocorrelation of white noise after the filter.
     pub white: Vec<f64>,
     /// Half-width of the 95 % band about it.
     pub half_width: Vec<f64>,

@@ -21,7 +21,7 @@ pub struct Spectrum {
     pub frequency: Vec<f64>,
     /// One for each residual \[unit/√Hz\].
     pub residuals: Vec<Vec<f64>>,
-    /// White noise of the noise floor's size behind the filter; empty if the floor is unknown.
+    /// White noise of the noise floor's size after the filter; empty if the floor is unknown.
     pub floor: Vec<f64>,
 }
 

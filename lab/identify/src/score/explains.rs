@@ -74,9 +74,8 @@ fn squares(rows: &[usize], signal: &[f64]) -> f64 {
     rows.iter().map(|&i| signal[i] * signal[i]).sum()
 }
 
-/// Residual of the least-squares fit of columns and a constant to `target` on `rows`,
-/// evaluated everywhere, and the columns' factors; a column that depends on the others
-/// gets the factor of least norm.
+/// Residual of the least-squares fit of columns and a constant to `target` on `rows`, evaluated
+/// everywhere, and the columns' factors; dependent columns get the factors of least norm.
 fn regression(rows: &[usize], columns: &[&[f64]], target: &[f64]) -> (Vec<f64>, Vec<f64>) {
     // At unit size, so that one relative threshold of the SVD serves all units.
     let size = |c: &[f64]| (squares(rows, c) / rows.len().max(1) as f64).sqrt();

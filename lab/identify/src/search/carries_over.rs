@@ -1,9 +1,9 @@
-//! Which terms transfer to data that the fit has not used.
+//! The choice of the terms that transfer to data that the fit has not used.
 //!
 //! On measured records the residual is systematic: every part of a record repeats the same misfit,
 //! so no test within one record predicts whether a second record gives the same term. One rule
 //! helps: the delivered model is the simplest one whose error on blocks that were left out of its
-//! linear fit is not worse than the least of all ([`delivered`]).
+//! linear fit is not worse than the smallest of all ([`delivered`]).
 
 use super::bank::on_line;
 use super::policy;
@@ -16,7 +16,7 @@ use rand::seq::SliceRandom;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// A slope is left out if its squared norm is below this share of the residual's.
+/// A slope is excluded if its squared norm is below this share of the residual's.
 const MOVES: f64 = 1e-6;
 /// Fixed seed: every record is divided into the same half-sets.
 const SEED: u64 = 1;

@@ -61,7 +61,7 @@ impl Group {
         }
     }
 
-    /// Whether both have one identity, whatever their shapes; any two curves are alike.
+    /// Whether both have the same identity, with any shapes; any two curves are alike.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.identity() == other.identity() || (self.is_curve() && other.is_curve())
     }

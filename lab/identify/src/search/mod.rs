@@ -52,7 +52,7 @@ use run::Search;
 /// step.
 ///
 /// # Errors
-/// One sentence if the baseline model cannot be fitted at all.
+/// A message if the baseline model cannot be fitted at all.
 pub fn close(
     data: &Prepared,
     structure: &Structure,
@@ -82,7 +82,7 @@ impl From<usize> for Limits {
 /// As [`close`], within limits.
 ///
 /// # Errors
-/// One sentence if the baseline model cannot be fitted at all.
+/// A message if the baseline model cannot be fitted at all.
 pub fn close_within(
     data: &Prepared,
     structure: &Structure,

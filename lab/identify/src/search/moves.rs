@@ -1,9 +1,9 @@
 //! Moves from one set of effects to another, and the criterion that each promises.
 //!
 //! A move removes up to two names, keeps or removes the curve, and adds up to two names, or a
-//! curve, or a set of names completed by forward selection. Moves of pairs find two effects
-//! of which neither alone explains anything. All moves are compared by one criterion,
-//! `J = ln SSE + sum of prices` (see `Prices`).
+//! curve, or a set of names completed by forward selection. Moves of pairs find two effects that
+//! explain something only together. All moves are compared by one criterion, `J = ln SSE + sum of
+//! prices` (see `Prices`).
 
 use super::bank::Identity;
 use super::gram::Swept;
@@ -52,8 +52,8 @@ pub(super) struct Proposed {
 pub(super) enum Phase {
     /// Any move that promises a lower criterion.
     Any,
-    /// Moves to fewer names, whatever they promise: the promise at a trial shape is poor before
-    /// a refit, and two names with bent shapes may imitate a single other one.
+    /// Moves to fewer names, with any predicted criterion: the prediction at a trial shape is poor
+    /// before a refit, and two names with bent shapes may imitate a single other one.
     Fewer,
     /// A curve at a lower price, once no further name is found.
     Curves,
@@ -348,7 +348,7 @@ impl Linear<'_> {
         effect.is_some_and(|e| is_stage(&e))
     }
 
-    /// Whether the move reduces the number of names and leaves the curve as it is.
+    /// Whether the move reduces the number of names and does not change the curve.
     pub(super) fn takes_names_out(&self, one: &Move) -> bool {
         let curves = one.added.iter().filter(|&&g| self.groups[g].is_curve());
         one.added.len() < one.kept.dropped.len()

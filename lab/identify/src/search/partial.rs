@@ -125,7 +125,7 @@ impl<'a> Partial<'a> {
     }
 
     /// The residual products of a column, given the set, divided by its own residual norm;
-    /// `None` where it depends on the set.
+    /// `None` if it depends on the set.
     fn row(&self, s: usize) -> Option<Vec<f64>> {
         let mut row: Vec<f64> = (0..self.reach).map(|j| self.source.at(s, j)).collect();
         for before in &self.swept {

@@ -60,7 +60,7 @@ impl Present {
         present
     }
 
-    /// A stage acts on all columns, so it has no column of its own. A set without the stage has
+    /// A stage acts on all columns, so it has no separate column. A set without the stage has
     /// another target instead: the output plus the stage's value times its slope.
     fn unstage(&mut self, data: &Prepared, now: &Solution) {
         let effect = |of: &[f64], i: usize| -> Vec<f64> {

@@ -218,7 +218,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// One round of moves; returns whether the search goes on.
+    /// One round of moves; returns whether the search continues.
     fn turn(&mut self, standing: &Standing<'a>) -> bool {
         let linear = &standing.linear;
         (self.regime, self.correlation_time) = (linear.regime, linear.correlation_time);

@@ -123,7 +123,7 @@ struct Comparison<'a> {
     columns: Vec<Option<Column>>,
     /// Positions in the linearisation of the columns and, last, of the target.
     places: Vec<usize>,
-    /// Precision of each coefficient on a record of which all rows are fitted.
+    /// Precision of each coefficient if all rows of the record are fitted.
     precision: Vec<f64>,
     /// Products of all columns and the target on all rows ...
     whole: DMatrix<f64>,
@@ -289,7 +289,8 @@ impl<'a> Comparison<'a> {
         })
     }
 
-    /// Removes mechanisms before the last one that are no longer worth keeping; returns the error.
+    /// Removes mechanisms before the last one that no longer reduce the error enough; returns the
+    /// error.
     fn without_needless(&self, found: &mut Vec<Found>, mut now: f64) -> f64 {
         while found.len() > 1 {
             let without = |k: usize| {

@@ -1,13 +1,13 @@
 //! Figures as inline SVG that a style sheet colours.
 //!
-//! Weighed and not taken: `plotters` writes fixed colours into every element and neither title,
-//! description nor classes; `charming` draws in the browser by a script; `poloto` is themed by CSS
-//! but has no title or description, no bars, bands or intervals, and thins nothing. What is
-//! written here is small: axes, lines, bands, bars, marks. The markup itself is `maud`'s.
+//! Alternatives: `plotters` writes fixed colours into every element, and no title, description or
+//! classes. `charming` draws in the browser with a script. `poloto` is themed by CSS, but has no
+//! title or description, no bars, bands or intervals, and does not thin points. This module needs
+//! only axes, lines, bands, bars and marks. `maud` writes the markup.
 //!
-//! Inside of the axes places are given in per cent of a drawing area, so that a figure is as wide
-//! as its page and its text keeps its size on any screen. Lines and bands are paths in an area of
-//! 1000 by 500 that is stretched over it.
+//! Positions inside the axes are percentages of a drawing area, so a figure is as wide as its page,
+//! and its text has the same size on any screen. Lines and bands are paths in an area of 1000 by
+//! 500 that is stretched over the drawing area.
 
 pub mod scale;
 mod thin;
@@ -16,7 +16,7 @@ use maud::{html, Markup, PreEscaped};
 use scale::Scale;
 use std::fmt::Write as _;
 
-/// Columns of pixels, each of which keeps its extremes.
+/// Number of columns of pixels; each column keeps its extremes.
 const COLUMNS: usize = 900;
 /// The same of a figure among many, which is a third as wide.
 const FEW_COLUMNS: usize = 260;
@@ -28,9 +28,9 @@ const AREA: [f64; 2] = [1000.0, 500.0];
 /// One axis.
 #[derive(Debug, Clone)]
 pub struct Axis {
-    /// What it shows, with its unit.
+    /// The quantity of the axis, with its unit.
     pub label: String,
-    /// From values to places.
+    /// The scale, from values to positions.
     pub scale: Scale,
 }
 
@@ -86,14 +86,14 @@ impl Chart {
         }
     }
 
-    /// With a sentence under it.
+    /// The same figure with a caption.
     #[must_use]
     pub fn caption(mut self, caption: &str) -> Self {
         caption.clone_into(&mut self.caption);
         self
     }
 
-    /// A figure among many: less high.
+    /// A smaller height, for a figure among many.
     #[must_use]
     pub fn low(mut self) -> Self {
         self.is_low = true;
@@ -140,14 +140,14 @@ impl Chart {
         self
     }
 
-    /// A line through points with ascending x, as far as the axis goes; of very many the extremes
-    /// are kept.
+    /// A line through points with ascending x, within the axis; very many points are reduced to
+    /// their extremes.
     #[must_use]
     pub fn line(self, class: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         self.lines(class, &[points.into_iter().collect()])
     }
 
-    /// A line in several runs, one behind the other.
+    /// A line with gaps: several runs in sequence.
     #[must_use]
     pub fn lines(self, class: &str, runs: &[Vec<[f64; 2]>]) -> Self {
         let columns = match self.is_low {
@@ -164,7 +164,7 @@ impl Chart {
         self.path(class, &lines, false)
     }
 
-    /// A curve through points in any order; what repeats is drawn once.
+    /// A curve through points in any order; repeated points are drawn once.
     #[must_use]
     pub fn curve(self, class: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let points: Vec<[f64; 2]> = points.into_iter().filter_map(|p| self.place(p)).collect();
@@ -219,7 +219,7 @@ impl Chart {
         self
     }
 
-    /// A dot at each point with its interval, where there is one: x, y, lower and upper end.
+    /// A dot at each point, with its interval if there is one: x, y, lower and upper end.
     #[must_use]
     pub fn dots(mut self, class: &str, points: &[([f64; 2], Option<[f64; 2]>)]) -> Self {
         let mut marks = Vec::new();
@@ -240,7 +240,7 @@ impl Chart {
         self
     }
 
-    /// A bar from zero for each point, of that width in units of x.
+    /// A bar from zero for each point, with this width in units of x.
     #[must_use]
     pub fn bars(mut self, class: &str, width: f64, points: &[[f64; 2]]) -> Self {
         let Some(zero) = self.y.scale.at(0.0) else {
@@ -321,7 +321,7 @@ impl Chart {
         }
     }
 
-    /// The figure as an SVG file of its own.
+    /// The figure as a separate SVG file.
     #[must_use]
     pub fn file(&self) -> String {
         let id = &self.id;

@@ -14,7 +14,7 @@ pub struct Scale {
 pub struct Tick {
     /// Share of the axis, 0 at its lower end.
     pub at: f64,
-    /// The number that is written there.
+    /// The number at the tick.
     pub label: String,
 }
 
@@ -35,7 +35,7 @@ impl Scale {
         }
     }
 
-    /// A linear axis over the numbers from one to the last one, with whole ticks.
+    /// A linear axis from one to the last number, with ticks at whole numbers.
     #[must_use]
     pub fn counting(last: usize) -> Self {
         Self {
@@ -74,7 +74,7 @@ impl Scale {
         }
     }
 
-    /// Share of the axis at which a value lies; `None` if it has no place there.
+    /// Share of the axis at which a value lies; `None` if the value is outside the axis.
     #[must_use]
     pub fn at(&self, value: f64) -> Option<f64> {
         let value = match self.logarithmic {
@@ -135,7 +135,7 @@ impl Scale {
     }
 }
 
-/// The least and the greatest finite value; 0 and 1 if there is none.
+/// The smallest and the largest finite value; 0 and 1 if there is none.
 fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|v| v.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-/// Keeps the least and the greatest point of each of so many columns of the unit interval, in
-/// their order, and both ends. The points come with ascending x in 0..=1.
+/// Keeps the lowest and the highest point of each column of the unit interval, in order, and both
+/// ends. The points must have ascending x in 0..=1.
 #[must_use]
 pub fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     if points.len() <= 2 * columns {
@@ -26,8 +26,8 @@ pub fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     kept
 }
 
-/// The lines of a path through the unit square, without what repeats: a point counts if its cell
-/// is new. Cells are made larger until at most that many points are left.
+/// The lines of a path through the unit square, without repetitions: a point is kept if its cell is
+/// new. The cells are enlarged until the number of points is at most the given one.
 #[must_use]
 pub fn cells(points: &[[f64; 2]], most: usize) -> Vec<Vec<[f64; 2]>> {
     let mut size = 1.0 / 800.0;

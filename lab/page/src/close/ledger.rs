@@ -175,7 +175,7 @@ fn share(share: Share) -> Markup {
     )
 }
 
-/// What a mechanism adds over its variable; `None` where that cannot be drawn.
+/// The contribution of a mechanism over its variable; `None` if it cannot be drawn.
 fn curve(facts: &Facts, k: usize, lack: &Lack) -> Option<Markup> {
     let points = &lack.curve.points;
     let all: Vec<_> = points
@@ -294,7 +294,7 @@ fn turned_down(facts: &Facts) -> Markup {
     }
 }
 
-/// What each round did on each block, and its rivals.
+/// The effect of each term on each block, and its alternatives.
 pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         @if figures.blocks.is_empty() {
@@ -328,7 +328,7 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
     }
 }
 
-/// What an experiment separates from the effect that was named, which need not be all of its rivals.
+/// The alternatives that an experiment separates from the named effect, possibly not all of them.
 fn rivals_of(experiment: &Experiment) -> impl Iterator<Item = &str> {
     experiment
         .aims

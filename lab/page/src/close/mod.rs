@@ -1,4 +1,4 @@
-//! The page of `bowden identify`: its sections in the order in which a reader asks.
+//! The page of `bowden identify`: its sections in the order of a reader's questions.
 
 mod ledger;
 mod model;
@@ -18,11 +18,11 @@ pub(crate) use signals::{
 /// What the page shows.
 #[derive(Debug, Clone, Copy)]
 pub struct Close<'a> {
-    /// The ledger.
+    /// The results table.
     pub facts: &'a Facts,
-    /// Signals and what the residuals say.
+    /// The signals and the tests of the residuals.
     pub figures: &'a Figures,
-    /// The models that can be handed over; empty if there is none.
+    /// The exported models; empty if there are none.
     pub models: &'a [Handed],
 }
 

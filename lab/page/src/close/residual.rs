@@ -32,7 +32,7 @@ fn off_zero(bins: &[Bin], of: usize) -> (usize, usize) {
     })
 }
 
-/// Share of the bins in which what the last model leaves differs from zero.
+/// Share of the bins in which the residual of the last model differs from zero.
 fn stands_out(one: &Dependence) -> f64 {
     let (off, all) = off_zero(&one.bins, 1);
     off as f64 / all.max(1) as f64

@@ -23,7 +23,7 @@ const SAME: f64 = 0.5;
 /// Maximum ratio of the other end's travel at the start of a plateau to that at its end.
 const ANSWERS: f64 = 2.0;
 
-/// The steps of a sensor with few steps over its used range.
+/// The steps of a sensor that has few of them over its used range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
     /// One step, in the column's unit.

@@ -3,7 +3,7 @@
 //! The defects are: a sensor that is constant while the rest moves, a sensor at the end of its
 //! range, samples that jump away and back, steps so coarse that they shape the signal, gaps in
 //! time, and time stamps that jitter. Each is reported with the lines of the file that it affects.
-//! Stretches without a measurement (stuck, clipped) are left out of the fit, and a straight line
+//! Stretches without a measurement (stuck, clipped) are excluded from the fit, and a straight line
 //! replaces spikes. A defect is *grave* if the conclusion is invalid nevertheless. What is normal
 //! for any sensor (noise, a converter's usual steps, a reference at rest) is not a defect.
 
@@ -37,7 +37,7 @@ pub enum DefectKind {
     Gap,
     /// Bit for bit the same value, although the rest of the record moves.
     Stuck,
-    /// A few samples that leap away from the signal and back.
+    /// A few samples that jump away from the signal and back.
     Spike,
 }
 
@@ -61,16 +61,16 @@ impl DefectKind {
 pub struct Defect {
     /// The kind of the defect.
     pub kind: DefectKind,
-    /// The column: as in the file for time, input and output, else the channel's name.
+    /// The column: its name in the file for time, input and output, otherwise the channel's name.
     pub channel: String,
-    /// First and last line of each stretch, counted as an editor does.
+    /// First and last line of each stretch, counted from 1.
     pub ranges: Vec<[usize; 2]>,
     /// One sentence.
     pub message: String,
     /// Whether it invalidates conclusions from this column.
     #[serde(skip)]
     pub grave: bool,
-    /// Whether the stretches hold no measurement and are left out of the fit.
+    /// Whether the stretches contain no measurement and are excluded from the fit.
     #[serde(skip)]
     pub left_out: bool,
     /// The stretches as samples of the record.
@@ -89,11 +89,11 @@ const GRAVE_INPUT: f64 = 0.01;
 /// The data for the detectors.
 pub(super) struct Measured<'a> {
     pub(super) table: &'a Table,
-    /// Name of the time's column; `None` where time comes from the row number.
+    /// Name of the time's column; `None` if time comes from the row number.
     pub(super) clock: Option<&'a str>,
     /// Input, output, channels.
     pub(super) columns: Vec<&'a Column>,
-    /// For each channel, the columns of which it is the sum or difference; none if it is a column.
+    /// For each channel, the columns whose sum or difference it is; none if it is a column.
     pub(super) parts: Vec<Vec<Vec<f64>>>,
 }
 
@@ -163,8 +163,8 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
 }
 
 impl Record {
-    /// The steps of each column that a coarse sensor measured: its place, 0 for the input and then
-    /// the channels, and its steps.
+    /// The steps of each column from a coarse sensor: its index, 0 for the input and then the
+    /// channels, and its steps.
     pub fn steps(&self) -> Vec<(usize, Steps)> {
         let output = Companion::new(&self.output.values);
         let columns = std::iter::once(&self.input).chain(&self.channels);

@@ -11,8 +11,8 @@ use std::ops::Range;
 /// Longest spike [samples]; and the longest one that rests on one value.
 const LONGEST: usize = 5;
 const LONGEST_AT_REST: usize = 19;
-/// A leap is so many times the 90 % quantile of the steps, and of the smallest step: noise of
-/// Laplace's distribution reaches 6 times that quantile in a million samples.
+/// A jump is at least this multiple of the 90 % quantile of the steps, and of the smallest step:
+/// noise of Laplace's distribution reaches 6 times that quantile in a million samples.
 const LEAP: f64 = 8.0;
 const USUAL: f64 = 0.9;
 /// A leap is also this share of the signal's spread from its 1 % to its 99 % quantile: smaller

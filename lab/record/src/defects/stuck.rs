@@ -12,11 +12,11 @@ use std::ops::Range;
 
 /// Shortest run that is considered [samples].
 const SHORTEST: usize = 20;
-/// Share of their usual speed at which others have to move: where the noise is gone, and
-/// where only a leap tells, since a reference may well rest while its rig settles.
+/// Share of their usual speed at which other signals must move, both if the noise is gone and if
+/// only a jump shows the defect: a reference may rest while its rig settles.
 const CREEPING: f64 = 0.02;
 const MOVING: f64 = 0.3;
-/// A leap is so many times the largest usual step.
+/// A jump is at least this multiple of the largest usual step.
 const LEAP: f64 = 3.0;
 /// Steps are usual up to this quantile.
 const USUAL: f64 = 0.995;
@@ -28,7 +28,7 @@ const TURNS: f64 = 0.1;
 const CHANCE: f64 = 1e-9;
 /// Share of the record above which flat runs are normal for the signal.
 const NATURE: f64 = 0.5;
-/// A run to the record's end is so many times longer than any other.
+/// A run up to the end of the record is at least this multiple of any other run.
 const DEAD_END: usize = 5;
 
 pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Found> {

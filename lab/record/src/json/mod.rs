@@ -2,8 +2,8 @@
 //!
 //! A record is an object; a nested value is named by its path, `pose.x` or `pose.0`. A row is an
 //! array in the order of names next to it or in `--names`. The table may be within other data, as
-//! long as there is one. Its cells become text, so that stamps, gaps and faults are those of any
-//! other text; a line is a record.
+//! long as there is one. Its cells become text, so time stamps, gaps and faults are treated as in
+//! any other text. A line is a record.
 
 mod value;
 

@@ -1,8 +1,8 @@
 //! The elements of a MAT-file of version 5 (MATLAB's `save -v6` and `-v7`).
 //!
-//! Source: MathWorks, *MAT-File Format*, chapter 1, "Version 5". A file is a header of 128
-//! bytes and data elements: a type, a length, the bytes. An element may be compressed; a
-//! matrix holds elements itself. Every length is checked against the bytes that there are.
+//! Source: MathWorks, *MAT-File Format*, chapter 1, "Version 5". A file is a header of 128 bytes
+//! and data elements: a type, a length, the bytes. An element may be compressed; a matrix holds
+//! elements itself. Every length is checked against the number of bytes.
 
 use crate::vectors::Value;
 use flate2::read::ZlibDecoder;

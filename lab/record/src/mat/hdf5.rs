@@ -1,9 +1,9 @@
-//! The variables of a MAT-file of version 7.3: HDF5 behind a header of MATLAB.
+//! The variables of a MAT-file of version 7.3: HDF5 after a header of MATLAB.
 //!
-//! A numeric array is a data set whose dimensions stand in reverse order, so that its values are
-//! in MATLAB's own, column by column. A structure is a group. An array of structures is a group
-//! whose fields are lists of references, and so is a cell array; what they refer to is in the
-//! group `#refs#`. `MATLAB_class` says which is which.
+//! A numeric array is a data set with its dimensions in reverse order, so its values are in
+//! MATLAB's order, column by column. A structure is a group. An array of structures is a group
+//! whose fields are lists of references, and so is a cell array; the referenced values are in the
+//! group `#refs#`. `MATLAB_class` distinguishes the two.
 //!
 //! Source: MathWorks, *MAT-File Versions*, "Version 7.3", and the documentation of `hdf5storage`
 //! on MATLAB's attributes. The bytes are read by the crate `hdf5-reader`.
@@ -228,7 +228,7 @@ fn is_reference(data: &Dataset) -> bool {
     matches!(data.dtype(), Datatype::Reference { .. })
 }
 
-/// The values of a numeric data set; `None` of complex ones and of what is no number.
+/// The values of a numeric data set; `None` for complex numbers and other data.
 fn numbers(data: &Dataset) -> Result<Option<Vec<f64>>, Error> {
     macro_rules! of {
         ($number:ty, $to:expr) => {

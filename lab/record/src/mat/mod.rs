@@ -2,7 +2,7 @@
 //!
 //! The reader of version 5 is our own: of the crates, `matfile` and `mat5` read neither structures
 //! nor cells, and `matrw` panics on damaged files. Version 7.3 is HDF5, which the crate
-//! `hdf5-reader` reads; which others there are is in `docs/reference/records.md`.
+//! `hdf5-reader` reads; `docs/reference/records.md` compares other crates.
 
 mod elements;
 mod hdf5;
@@ -10,7 +10,7 @@ mod hdf5;
 use super::error::RecordError;
 use super::vectors::{vectors, Vector};
 
-/// The columns of a file of version 5, each under a name of its own.
+/// The columns of a file of version 5, each with a unique name.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Vector>, RecordError> {
     vectors(elements::variables(bytes))
 }

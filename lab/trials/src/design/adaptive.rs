@@ -1,11 +1,11 @@
 //! Gains of the adaptive law in lag form that its constructor and its certificate admit.
 //!
-//! On a static plant the lag form is an integral: with z = s/(p + lambda) and
-//! s = (p + lambda)/p·e its command is `lambda·beta_hat·(k + delta_hat/epsilon)/p·e` near zero.
-//! So `h·lambda·g⁺·(k + delta_max/epsilon)` is the integral gain of one sample: behind one
-//! sample of delay the loop is unstable above two, and the constructor admits one. Here it is
-//! one half, a gain margin of four. lambda is a fiftieth of that bandwidth, about what Table 2
-//! has, and k and delta_max/epsilon have one half of the gain each.
+//! On a static plant the lag form is an integral: with z = s/(p + lambda) and s = (p + lambda)/p·e
+//! its command is `lambda·beta_hat·(k + delta_hat/epsilon)/p·e` near zero. So `h·lambda·g⁺·(k +
+//! delta_max/epsilon)` is the integral gain of one sample: with one sample of delay, the loop is
+//! unstable above two, and the constructor admits one. Here it is one half, which is a gain margin
+//! of four. lambda is a fiftieth of this bandwidth, similar to Table 2, and k and delta_max/epsilon
+//! contribute half of the gain each.
 
 use super::plant::Plant;
 use crate::gains::Known;
@@ -19,41 +19,41 @@ const UNKNOWN: f64 = 0.1;
 /// What the drive's gain is known to, as a share.
 const DRIVE: f64 = 0.02;
 
-/// h·lambda·g⁺·(k + delta_max/epsilon): half of what the constructor admits.
+/// h·lambda·g⁺·(k + delta_max/epsilon): half of the largest value that the constructor admits.
 const LOOP_GAIN: f64 = 0.5;
 
 /// An estimate crosses its box in this many time constants of the loop, at abs(s) = epsilon.
 const CROSSING: f64 = 100.0;
 
-/// The law, or why there is none.
+/// The law, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdaptiveDesign {
     /// Step of the law \[s\]: the shortest multiple of the sample that is longer than the delay.
     pub step: f64,
     /// The law is called on every Nth sample; N is this number.
     pub every: usize,
-    /// Whether the plant's delay fits into one sample at the stated rate, which the lag form
-    /// asks for; if not, the law runs at `step`.
+    /// Whether the plant's delay fits into one sample at the stated rate, as the lag form requires;
+    /// if not, the law runs at `step`.
     pub at_the_rate: bool,
     /// h·lambda·g⁺·(k + delta_max/epsilon), at most one.
     pub loop_gain: f64,
-    /// The settings; `None` where no gains are admissible.
+    /// The settings; `None` if no gains are admissible.
     pub settings: Option<AdaptiveSettings<f64, 0>>,
-    /// Why there are no admissible gains.
+    /// The reason why no gains are admissible.
     pub refused: Option<String>,
-    /// abs(e) stays below \[N·m\]: of the proof where there is one, else the sampled peak
+    /// Bound of abs(e) \[N·m\], from the proof if there is one, otherwise from the sampled peak
     /// certificate.
     pub certificate: Option<f64>,
-    /// Whether `bowden certify` proves the file as it stands: then the certificate counts limits,
+    /// Whether `bowden certify` proves the file as written; the certificate then includes limits,
     /// slew rate and roundings.
     pub proved: bool,
-    /// Why it does not, though there is a certificate.
+    /// The reason why it does not, although there is a certificate.
     pub unproved: Option<String>,
-    /// Why there is no certificate.
+    /// The reason why there is no certificate.
     pub uncertified: Option<String>,
-    /// What the certificate assumes of the plant, where it is known.
+    /// The ranges of the plant that the certificate assumes, if they are known.
     pub plant: Option<Known>,
-    /// Names of the parameters whose box is ±10 %, since the model file has no interval.
+    /// Names of the parameters whose bounds are ±10 %, because the model file has no interval.
     pub assumed: Vec<String>,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct Around {
     pub(super) drive_gain: f64,
     pub(super) limits: Limits<f64>,
     pub(super) fallback: Fallback<f64>,
-    /// Greatest rate of the reference \[N·m/s\], where there is one.
+    /// Greatest rate of the reference \[N·m/s\], if there is one.
     pub(super) reference_rate: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ fn interval(plant: &Plant, name: &str, value: f64) -> (Interval<f64>, bool) {
     }
 }
 
-/// The boxes of the truth: alpha, Delta, the rate of D, and what was assumed.
+/// The ranges of the true values: alpha, Delta, the rate of D, and the assumed ones.
 struct Boxes {
     gain: Interval<f64>,
     alpha: Interval<f64>,

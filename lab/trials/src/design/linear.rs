@@ -1,10 +1,9 @@
 //! The sampled loop of a gain behind a delay: margins, overshoot, settling.
 //!
-//! In units of the plant's gain and of the sample, `y(k) = u(k - D)` and
-//! `C(z) = k_p + k_i/(1 - 1/z) + k_d·(1 - 1/z)/(tau + 1 - tau/z)`, which is what
-//! [`Pid::step`](bowden::control::Pid::step) computes. The hold is part of the sampled plant,
-//! so the margins are exact. Source: K. J. Åström, B. Wittenmark, *Computer-Controlled
-//! Systems*, 3rd ed., 1997, 3.3 and 4.
+//! With the plant's gain and the sample time as units, `y(k) = u(k - D)` and `C(z) = k_p + k_i/(1 -
+//! 1/z) + k_d·(1 - 1/z)/(tau + 1 - tau/z)`, which is what [`Pid::step`](bowden::control::Pid::step)
+//! computes. The hold is part of the sampled plant, so the margins are exact. Source: K. J. Åström,
+//! B. Wittenmark, *Computer-Controlled Systems*, 3rd ed., 1997, 3.3 and 4.
 
 use std::f64::consts::PI;
 
@@ -59,15 +58,15 @@ impl Gains {
     }
 }
 
-/// How far a loop is from instability.
+/// The distance of a loop from instability.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Margins {
-    /// By what the loop's gain may grow.
+    /// Gain margin: the factor by which the loop's gain may increase.
     pub gain: f64,
-    /// By what its phase may lag further \[deg\].
+    /// Phase margin \[deg\].
     pub phase: f64,
-    /// Least real part of the open loop: above -1 no sequence of slopes between zero and the
-    /// greatest one makes the loop unstable (circle criterion).
+    /// Smallest real part of the open loop: above -1, no sequence of slopes between zero and the
+    /// largest one makes the loop unstable (circle criterion).
     pub least_real: f64,
 }
 
@@ -138,7 +137,7 @@ pub(super) struct Response {
     pub(super) settled: Option<usize>,
 }
 
-/// The step response behind `delay` samples of a plant that has `gain` of the greatest.
+/// The step response after `delay` samples, for a plant with the share `gain` of the largest gain.
 pub(super) fn response(gains: Gains, delay: usize, gain: f64) -> Response {
     let length = 60 * (delay + 1);
     let mut commands = Vec::with_capacity(length);

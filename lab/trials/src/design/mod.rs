@@ -1,8 +1,8 @@
 //! From an identified model to gains: the calculation behind `bowden design`.
 //!
-//! The plant is the transmission of the model, whose output moves with the command by a slope
-//! within [`Slopes`], behind a delay. Inertias, springs and dampings are not in the model:
-//! what they add belongs to the delay that is given, a lag of T counting as a delay of T.
+//! The plant is the transmission of the model, with a slope of the output within [`Slopes`], after
+//! a delay. Inertias, springs and dampings are not in the model: their lag must be part of the
+//! given delay. A lag of T counts as a delay of T.
 //!
 //! ```
 //! use bowden_trials::design::{design, Question};
@@ -83,7 +83,7 @@ const LONG_MARGIN: f64 = 1.4;
 /// Steps that are tried as the longest one \[samples\].
 const LONGER: [f64; 6] = [1.25, 1.5, 2.0, 3.0, 4.0, 5.0];
 
-/// PI or PID, with what it gives.
+/// The gains of a PI or PID, and the properties of its loop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PidDesign {
     /// Proportional gain \[command unit/(N·m)\].
@@ -96,57 +96,58 @@ pub struct PidDesign {
     pub derivative_time: f64,
     /// Margins at the loop's slope.
     pub margins: Margins,
-    /// Overshoot of a step of the reference, as a share of it.
+    /// Overshoot after a step of the reference, as a share of the step.
     pub overshoot: f64,
-    /// After which time such a step stays within 2 % \[s\].
+    /// Settling time of such a step to within 2 % \[s\].
     pub settled: Option<f64>,
 }
 
-/// Which gains alone would be admissible.
+/// The range of admissible gains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Admissible {
-    /// `k_p` is below this, whatever `k_i` is \[command unit/(N·m)\].
+    /// Upper limit of `k_p` for any `k_i` \[command unit/(N·m)\].
     pub k_p: f64,
-    /// `k_i` is at most this with the designed `k_p` \[command unit/(N·m·s)\].
+    /// Largest `k_i` with the designed `k_p` \[command unit/(N·m·s)\].
     pub k_i: f64,
-    /// `k_i` is at most this without `k_p` \[command unit/(N·m·s)\].
+    /// Largest `k_i` without `k_p` \[command unit/(N·m·s)\].
     pub k_i_alone: f64,
 }
 
 /// Whether a derivative helps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Derivative {
-    /// Whether the integral gain grows by a tenth or more.
+    /// Whether the integral gain increases by a tenth or more.
     pub helps: bool,
-    /// Integral gain of PID over that of PI.
+    /// Integral gain of the PID divided by that of the PI.
     pub integral_gain: f64,
     /// The best PID.
     pub pid: PidDesign,
 }
 
-/// Advice that does not follow from the margins.
+/// Limits and fallback, which do not follow from the margins.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds {
-    /// Least command \[command unit\]: what the record has covered.
+    /// Smallest command \[command unit\] of the record.
     pub low: f64,
-    /// Greatest command \[command unit\].
+    /// Largest command \[command unit\] of the record.
     pub high: f64,
-    /// Least slew rate that cuts no noise, `2·(k_p + k_i/rate)·6·noise·rate`; with a derivative
-    /// that helps, `k_p` is increased by `k_d/(derivative_time + 1/rate)` \[command unit/s\].
+    /// Smallest slew rate that does not limit the response to noise, `2·(k_p +
+    /// k_i/rate)·6·noise·rate`; with a derivative that helps, `k_p` is increased by
+    /// `k_d/(derivative_time + 1/rate)` \[command unit/s\].
     pub slew_of_noise: f64,
-    /// Greatest rate that the record has covered \[command unit/s\].
+    /// Largest rate of the input in the record \[command unit/s\].
     pub slew_of_record: f64,
-    /// The greater of both.
+    /// The larger of the two.
     pub slew: f64,
-    /// Greatest rate of a reference that needs no faster input than the record's \[N·m/s\];
-    /// `None` where the least slope is below a hundredth of the greatest.
+    /// Largest rate of a reference for which the input is no faster than in the record \[N·m/s\];
+    /// `None` if the smallest slope is below a hundredth of the largest.
     pub reference_rate: Option<f64>,
-    /// Outputs that the covered inputs reach in both directions \[N·m\]; `None` where the stroke
-    /// of the record is shorter than the hysteresis.
+    /// Outputs that the recorded inputs reach in both directions \[N·m\]; `None` if the stroke of
+    /// the record is shorter than the hysteresis.
     pub output: Option<[f64; 2]>,
     /// Longest `dt` \[s\].
     pub longest_dt: f64,
-    /// The safe command goes out after this many bad samples in a row.
+    /// Number of bad samples in a row after which the safe command is applied.
     pub fallback_after: u32,
     /// The safe command \[command unit\].
     pub fallback_command: f64,
@@ -155,19 +156,19 @@ pub struct Bounds {
 /// The answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Designed {
-    /// Least and greatest slope of the output in the proximal torque.
+    /// Smallest and largest slope of the output over the proximal torque.
     pub slopes: Slopes,
-    /// Magnitude of the slope for which the gains are designed: the greatest one.
+    /// The slope for which the gains are designed: the largest magnitude.
     pub design_slope: f64,
-    /// The delay with that of the model \[s\].
+    /// The delay, including that of the model \[s\].
     pub delay: f64,
-    /// Samples after which a command is first measured.
+    /// Number of samples from a command to its first measured effect.
     pub delay_samples: usize,
-    /// What was asked of the margins.
+    /// The required margins.
     pub asked: Asked,
     /// PI.
     pub pi: PidDesign,
-    /// Which gains alone would be admissible.
+    /// The range of admissible gains.
     pub admissible: Admissible,
     /// Whether a derivative helps.
     pub derivative: Derivative,
@@ -175,18 +176,18 @@ pub struct Designed {
     pub bounds: Bounds,
     /// The adaptive law.
     pub adaptive: AdaptiveDesign,
-    /// What the reader must know.
+    /// Notes for the user.
     pub notes: Vec<String>,
-    /// The same as a file.
+    /// The same data as a file.
     #[serde(skip)]
     pub gains: GainsFile,
 }
 
 impl Question {
-    /// Refuses what is no rate, delay, noise or gain.
+    /// Refuses an invalid rate, delay, noise or gain.
     ///
     /// # Errors
-    /// One line with the option.
+    /// A message with the option.
     pub fn check(&self) -> Result<(), String> {
         for (value, option, unit, above) in [
             (self.rate, "--rate", "Hz", true),
@@ -223,10 +224,10 @@ fn samples(delay: f64, step: f64) -> usize {
     (delay / step + 1e-9).floor() as usize + 1
 }
 
-/// The gains of a model file's text; `label` stands for its name.
+/// The gains for the model in the text of a model file; `label` is the name of the file.
 ///
 /// # Errors
-/// One line: the option, or file, line and column, and what is needed.
+/// A message with the option, or with file, line and column, and the allowed values.
 pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, String> {
     asked.check()?;
     let file = read(text, label)?;
@@ -304,7 +305,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     })
 }
 
-/// The file that is proved, where there is one; the law with it.
+/// The file that is proved, if there is one; the law with it.
 fn promised(gains: GainsFile, adaptive: &mut AdaptiveDesign) -> GainsFile {
     if adaptive.certificate.is_none() {
         return gains;
@@ -443,8 +444,8 @@ fn bounds(
     })
 }
 
-/// Bad samples in a row until the safe command goes out: 20 ms, or twice the delay \[s\], at so many
-/// steps a second.
+/// Number of bad samples in a row until the safe command is applied: 20 ms, or twice the delay
+/// \[s\], at the given rate.
 fn fallback_after(delay: f64, rate: f64) -> u32 {
     let after = (0.02_f64.max(2.0 * delay) * rate).ceil();
     after.clamp(2.0, 1e6) as u32

@@ -1,26 +1,26 @@
 //! Gains of PI and PID for a static plant behind a delay, within stated margins.
 //!
-//! Of all pairs that keep the margins the one with the greatest integral gain is taken: a
-//! static plant follows a ramp with the error `rate/(k_i·slope)`, and a disturbance is gone
-//! after `1/(k_i·slope)`. Source: K. J. Åström, T. Hägglund, *Advanced PID Control*, 2006,
+//! Among all pairs that satisfy the margins, the pair with the largest integral gain is chosen: a
+//! static plant follows a ramp with the error `rate/(k_i·slope)`, and a disturbance decays with the
+//! time constant `1/(k_i·slope)`. Source: K. J. Åström, T. Hägglund, *Advanced PID Control*, 2006,
 //! 6.8 and 7.3 (maximise the integral gain subject to robustness).
 
 use super::linear::{margins, response, Gains, Margins, Response};
 
-/// What is asked of the loop where the plant is steepest.
+/// The requirements on the loop at the steepest slope of the plant.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Asked {
     /// Least gain margin.
     pub gain_margin: f64,
-    /// Least phase margin \[deg\].
+    /// Smallest phase margin \[deg\].
     pub phase_margin: f64,
-    /// Greatest overshoot of a step of the reference, as a share of it.
+    /// Largest overshoot after a step of the reference, as a share of the step.
     pub overshoot: f64,
     /// The real part of the open loop stays above this.
     pub least_real: f64,
 }
 
-/// What [`bowden design`](super::design) asks for.
+/// The requirements of [`bowden design`](super::design).
 pub const ASKED: Asked = Asked {
     gain_margin: 2.0,
     phase_margin: 45.0,
@@ -32,7 +32,7 @@ pub const ASKED: Asked = Asked {
 /// the unit of time.
 const LONGEST: usize = 48;
 
-/// Gains with what they give where the plant is steepest.
+/// Gains, and the properties of the loop at the steepest slope of the plant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Found {
     pub(super) gains: Gains,
@@ -48,7 +48,7 @@ fn admissible(gains: Gains, delay: usize) -> bool {
         && response(gains, delay, 1.0).overshoot <= ASKED.overshoot
 }
 
-/// The greatest value up to `high` that is admitted, of those that are admitted from zero on.
+/// The largest admitted value up to `high`, if all smaller values are admitted too.
 fn greatest(high: f64, admitted: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, high);
     for _ in 0..24 {
@@ -62,12 +62,12 @@ fn greatest(high: f64, admitted: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// The greatest integral gain beside the other gains.
+/// The largest integral gain with the other gains.
 pub(super) fn greatest_integral(rest: Gains, delay: usize) -> f64 {
     greatest(2.0, |k_i| admissible(Gains { k_i, ..rest }, delay))
 }
 
-/// The greatest proportional gain without an integral: the gain margin alone bounds it.
+/// The largest proportional gain without an integral: the gain margin alone bounds it.
 pub(super) fn greatest_proportional() -> f64 {
     1.0 / ASKED.gain_margin
 }

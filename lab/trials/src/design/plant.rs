@@ -5,14 +5,13 @@ use bowden_lab::export::{About, ModelFile, TermFile};
 use bowden_lab::record::is_same_unit;
 use serde::Serialize;
 
-/// Least and greatest slope of the output in the input.
+/// Smallest and largest slope of the output over the input.
 ///
-/// With zeta = eta in the direction of the motion, `d zeta/dp = 1 - zeta^n` while it loads and
-/// `1 + (2·sigma - 1)·abs(zeta)^n` while it unloads, where `p` is rho times the path. With
-/// abs(zeta) <= 1 and 2·sigma >= 1 the slope of eta in the input lies in
-/// `0..=rho·max(1, 2·sigma)`, so in torque mode (5)-(7) that of the output lies between
-/// `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. Both ends are reached: where the loop is
-/// saturated, before and after a reversal.
+/// With zeta = eta in the direction of the motion, and p = rho times the path, `d zeta/dp = 1 -
+/// zeta^n` while loading and `1 + (2·sigma - 1)·abs(zeta)^n` while unloading. With abs(zeta) <= 1
+/// and 2·sigma >= 1 the slope of eta over the input lies in `0..=rho·max(1, 2·sigma)`, so in torque
+/// mode (5)-(7) the slope of the output lies between `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. A
+/// saturated loop reaches both ends, before and after a reversal.
 ///
 /// ```
 /// use bowden::hysteresis::BoucWen;
@@ -48,22 +47,22 @@ impl Slopes {
         }
     }
 
-    /// The least slope, where it is above a hundredth of the greatest: below that a model is
-    /// on the bound of what has an inverse, and rates divided by its slope mean nothing.
+    /// The smallest slope, if it is above a hundredth of the largest. Below this limit the model is
+    /// at the bound of invertibility, and rates divided by the slope are meaningless.
     #[must_use]
     pub fn rising(&self) -> Option<f64> {
         (self.least > 0.01 * self.greatest).then_some(self.least)
     }
 
-    /// The greatest magnitude of the slope: that of the loop's gain.
+    /// The largest magnitude of the slope, which determines the loop's gain.
     #[must_use]
     pub fn magnitude(&self) -> f64 {
         self.greatest.max(-self.least)
     }
 }
 
-/// Refuses a model whose output falls over a long way of the input, beyond what the hysteresis
-/// does after a reversal: a controller with gains above zero would drive it away.
+/// Refuses a model whose output falls along the input, beyond the effect of the hysteresis after a
+/// reversal: a controller with positive gains would make the loop diverge.
 ///
 /// # Errors
 /// One sentence without the file's name.
@@ -199,7 +198,7 @@ impl Plant {
         Ok(())
     }
 
-    /// The greatest share of a term over the corners and the middle of what the record covered.
+    /// The largest contribution of a term over the corners and the middle of the record's ranges.
     fn largest(&self, term: &TermFile) -> Result<f64, String> {
         use bowden::effect::{EffectState, Inputs, Motion};
         let Some(span) = self.about.ranges.get(&term.source) else {
@@ -241,7 +240,7 @@ impl Plant {
     }
 
     /// Outputs that the saturated hysteresis reaches from the covered input in both directions
-    /// \[N·m\]; `None` where the stroke is shorter than the hysteresis, so that there is none.
+    /// \[N·m\]; `None` if the stroke is shorter than the hysteresis, so that there is none.
     pub(super) fn output(&self) -> Option<[f64; 2]> {
         let [low, high] = self.ends();
         (low < high).then_some([low, high])

@@ -1,9 +1,9 @@
 //! A gains file that can be proved as written.
 //!
-//! The limits of a design are what its record has covered. Against friction they hold a smaller
-//! reference than the record's greatest output, and from the corner of its box the law moves the
-//! command faster than any input of the record moved. So the file promises less, or its slew
-//! rate allows more, until `bowden certify` proves it.
+//! The limits of a design are the range of its record. Against friction, these limits hold only a
+//! reference that is smaller than the record's largest output. From the corner of its bounds, the
+//! law moves the command faster than any input of the record. The range of the reference is
+//! therefore reduced, or the slew-rate limit raised, until `bowden certify` proves the file.
 
 use super::Designed;
 use crate::decimal::digits;
@@ -41,19 +41,19 @@ pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
     Err(why)
 }
 
-/// What `bowden certify` answers to the file of a design.
+/// The result of `bowden certify` for the file of a design.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Certifies {
-    /// It proves the box of the error.
+    /// The bounds of the error are proved.
     Proves,
-    /// It says which inequality does not hold, and what would mend that.
+    /// An inequality does not hold; a change that would satisfy it.
     NamesWhatFails,
-    /// There is nothing that it could prove: it refuses the file, for this reason.
+    /// The file is refused, for this reason.
     Refuses(String),
 }
 
 impl Designed {
-    /// What `bowden certify` answers to the file as it stands.
+    /// The result of `bowden certify` for the file as written.
     #[must_use]
     pub fn certifies(&self) -> Certifies {
         let lacks = match (&self.gains.adaptive, &self.gains.plant) {

@@ -1,4 +1,4 @@
-//! Gains as a Rust file for firmware, in single precision, checked by its compiler.
+//! Gains as a Rust file for firmware, in single precision, checked by the compiler.
 
 use super::Designed;
 use bowden::control::{AdaptiveSettings, Estimator, Form, PidSettings};
@@ -19,8 +19,8 @@ fn number(value: f64) -> String {
     format!("{:?}", value as f32)
 }
 
-/// The gains as statics that the compiler checks: `PI`, `PID` and `ADAPTIVE`, as far as they
-/// were designed.
+/// The gains as statics that the compiler checks: `PI`, `PID` and `ADAPTIVE`, if they were
+/// designed.
 #[must_use]
 pub fn rust(designed: &Designed) -> String {
     let gains = &designed.gains;

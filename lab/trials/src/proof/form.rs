@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Gains of the lag form and what is known of their plant.
+/// Gains of the lag form and the known ranges of their plant.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Form {
@@ -19,7 +19,7 @@ pub(super) struct Form {
     pub(super) z_limit: Positive,
     /// Limit of the command's magnitude \[command unit\].
     pub(super) command: Positive,
-    /// Slew rate \[command unit/s\], where there is one.
+    /// Slew rate \[command unit/s\], if there is one.
     pub(super) slew: Option<Positive>,
     /// Box of beta_hat, above zero.
     pub(super) beta: Above,

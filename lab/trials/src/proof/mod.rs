@@ -17,23 +17,23 @@ use form::Form;
 use serde::Serialize;
 use std::path::Path;
 
-/// What is proved of gains, or which inequality refuses them.
+/// The proof for given gains, or the inequality that fails.
 ///
-/// Numbers are exact, as `mantissa*2^exponent`; beside them stands the nearest `f64` where
-/// people read them. As JSON it is of the schema `bowden.certificate/1`.
+/// Numbers are exact, as `mantissa*2^exponent`, and shown with the nearest `f64` for readers. The
+/// JSON has the schema `bowden.certificate/1`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Proof {
     /// `bowden.certificate/1`.
     pub schema: &'static str,
-    /// Whether all inequalities hold, or of the command's those that stand for it.
+    /// Whether all inequalities hold; three inequalities may replace that of the command.
     pub proved: bool,
-    /// Whether the limit of the command may be met in the box.
+    /// Whether the command may reach its limit within the bounds.
     pub may_meet_the_limit: bool,
     /// The controller's float.
     pub float: Float,
-    /// The gains as the controller has them, in its own float.
+    /// The gains in the float type of the controller.
     pub gains: Exact,
-    /// What is known of the plant.
+    /// The known ranges of the plant.
     pub plant: ExactPlant,
     /// The regressors.
     pub regressors: Vec<ExactRegressor>,
@@ -41,25 +41,25 @@ pub struct Proof {
     pub s: Number,
     /// Z \[N·m·s\]: box of z.
     pub z: Number,
-    /// S + lambda·Z \[N·m\]: `|e|` at every sample.
+    /// S + lambda·Z \[N·m\]: bound of `|e|` at every sample.
     pub error: Number,
     /// W \[N·m\].
     pub w: Number,
     /// Xi \[N·m/s\].
     pub xi: Number,
-    /// Least and greatest g = alpha·beta_hat.
+    /// Smallest and largest g = alpha·beta_hat.
     pub g: [Number; 2],
-    /// What one step rounds.
+    /// Rounding errors of one step.
     pub roundings: Rounded,
     /// The nine inequalities.
     pub inequalities: Vec<Sides>,
-    /// What stands for the command's where that one fails.
+    /// The inequalities that replace that of the command if it fails.
     pub at_the_limit: Vec<Sides>,
-    /// That the slew rate is not met; `None` where there is none.
+    /// The inequality for an inactive slew-rate limit; `None` if there is no such limit.
     pub slew: Option<Sides>,
-    /// The first inequality that does not hold, and what would mend it.
+    /// The first inequality that does not hold, and a change that would satisfy it.
     pub refused: Option<Refusal>,
-    /// What the user must check.
+    /// The assumptions that the user must check.
     pub assumptions: Vec<&'static str>,
 }
 
@@ -70,10 +70,10 @@ pub struct Number {
     pub exact: String,
     /// The nearest `f64`.
     pub value: f64,
-    /// The greatest `f64` that is not above the number.
+    /// The largest `f64` that is not above the number.
     #[serde(skip)]
     pub low: f64,
-    /// The least `f64` that is not below the number.
+    /// The smallest `f64` that is not below the number.
     #[serde(skip)]
     pub high: f64,
 }
@@ -100,7 +100,7 @@ impl From<Dyadic> for Number {
     }
 }
 
-/// The gains as the controller has them.
+/// The gains of the controller.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Exact {
     /// Control gain.
@@ -115,19 +115,19 @@ pub struct Exact {
     pub z_limit: String,
     /// \[command unit\]
     pub command: String,
-    /// Slew rate \[command unit/s\]; `None` where there is none.
+    /// Slew-rate limit \[command unit/s\]; `None` if there is none.
     pub slew: Option<String>,
     /// Box of beta_hat.
     pub beta: [String; 2],
     /// Box of delta_hat \[N·m\].
     pub delta: [String; 2],
-    /// Greatest adaptation gain of an estimate.
+    /// Largest adaptation gain of an estimate.
     pub adaptation: String,
-    /// Greatest leakage of an estimate \[1/s\].
+    /// Largest leakage of an estimate \[1/s\].
     pub leakage: String,
 }
 
-/// What is known of the plant.
+/// The known ranges of the plant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExactPlant {
     /// \[N·m/command unit\]
@@ -142,12 +142,12 @@ pub struct ExactPlant {
     pub reference_rate: String,
 }
 
-/// What is known of a regressor.
+/// The known ranges of a regressor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExactRegressor {
-    /// Box of the estimate.
+    /// Bounds of the estimate.
     pub theta_hat: [String; 2],
-    /// Where the truth lies.
+    /// Range of the true value.
     pub theta: [String; 2],
     /// Greatest magnitude.
     pub magnitude: String,
@@ -155,18 +155,18 @@ pub struct ExactRegressor {
     pub rate: String,
 }
 
-/// What one step rounds.
+/// Rounding errors of one step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rounded {
     /// Of s \[N·m\].
     pub s: Number,
-    /// Of the command \[command unit\].
+    /// Rounding error of the command \[command unit\].
     pub command: Number,
     /// Of z \[N·m·s\].
     pub z: Number,
-    /// What the sum of z may owe \[N·m·s\].
+    /// Largest carry of the sum of z \[N·m·s\].
     pub carry_error_z: Number,
-    /// What the sum of the command may owe \[command unit\].
+    /// Largest carry of the sum of the command \[command unit\].
     pub owed_by_command: Number,
 }
 
@@ -177,9 +177,9 @@ pub struct Sides {
     pub name: Named,
     /// In symbols.
     pub text: &'static str,
-    /// At least the left side.
+    /// Upper bound of the left side.
     pub left: Number,
-    /// At most the right side.
+    /// Lower bound of the right side.
     pub right: Number,
     /// Whether it holds.
     pub holds: bool,
@@ -197,12 +197,12 @@ impl From<&Inequality> for Sides {
     }
 }
 
-/// Why gains are not proved.
+/// The reason why gains are not proved.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Refusal {
     /// The inequality.
     pub text: &'static str,
-    /// What would mend it.
+    /// A change that would satisfy the inequality.
     pub mend: String,
 }
 
@@ -216,17 +216,17 @@ const MOST_ADAPTATION: f64 = 1_073_741_824.0;
 /// Reads a file of gains and examines them.
 ///
 /// # Errors
-/// One line with file, line, column and what is needed.
+/// A message with file, line, column and the allowed values.
 pub fn prove(path: &Path) -> Result<Proof, String> {
     let label = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
     parse(&text, &label)
 }
 
-/// What a file of gains lacks that says nothing of its plant.
+/// The error for a file of gains without a plant.
 const NO_PLANT: &str = "has no [plant]: add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
 
-/// The same of a text; `label` stands for the file's name.
+/// The same for a text; `label` is the name of the file.
 ///
 /// # Errors
 /// As [`prove`].
@@ -414,7 +414,7 @@ fn proof<T: Real, const N: usize>(
     }
 }
 
-/// Those of the theorem, and what stands for the adaptation that a file does not state.
+/// The assumptions of the theorem, and those on the adaptation that a file does not state.
 fn assumptions() -> Vec<&'static str> {
     let kind = Kind::PeakRounded;
     let certificate = bowden_bound::Certificate { kind, value: 0.0 };

@@ -36,11 +36,11 @@ struct Numbers {
 /// The theorem of a limit is over the reals alone.
 const AT_THE_LIMIT: &str = "--coq: this proof allows the limit of the command to be active; certificates for Coq cover only inactive limits (theorems/Limit.v states the theorem, and --json lists all numbers)";
 
-/// The certificate as a theorem: `coqc` checks it, or refuses it.
+/// The certificate as a theorem: `coqc` accepts or rejects it.
 ///
 /// # Errors
-/// One line where a number is so small that it would not fit on one, or where the limit of the
-/// command may be met.
+/// A message if a number is too small or too large to be written as a fraction, or if the command
+/// may reach its limit.
 pub fn coq(proof: &Proof) -> Result<String, String> {
     if proof.may_meet_the_limit {
         return Err(AT_THE_LIMIT.to_owned());
@@ -120,7 +120,7 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
     Ok(words.filled(COQ))
 }
 
-/// What the head says of a slew rate.
+/// The remark on the slew-rate limit in the header.
 fn slew(proof: &Proof) -> Option<String> {
     let sides = proof.slew.as_ref()?;
     Some(format!(
@@ -172,7 +172,7 @@ pub fn gappa(proof: &Proof) -> Result<String, String> {
     Ok(words.filled(GAPPA))
 }
 
-/// What stands in the places of a template.
+/// The values for the placeholders of a template.
 struct Words(BTreeMap<String, String>);
 
 impl Words {
@@ -201,7 +201,7 @@ impl Words {
     }
 }
 
-/// The inputs of the step, and `theta_hat'x` as it is and as it is rounded.
+/// The inputs of the step, and `theta_hat'x`, exact and rounded.
 fn sums(regressors: usize) -> (Vec<String>, String, String) {
     let fixed = [
         "y", "r", "rp", "z", "carry", "u", "cu", "beta", "delta", "t",
@@ -280,7 +280,7 @@ struct Given {
     delta: Enclosure,
     reference: Enclosure,
     rate: Enclosure,
-    /// Greatest `|theta'x + D|`, and greatest `|theta_hat'x|`.
+    /// Largest `|theta'x + D|`, and largest `|theta_hat'x|`.
     load: Enclosure,
     compensation: Enclosure,
     /// Greatest `|theta_hat_i|` and `|x_i|`, rounded up.

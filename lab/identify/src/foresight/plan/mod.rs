@@ -1,14 +1,13 @@
 //! The experiment that would resolve what the record cannot.
 //!
 //! Two effects are ambiguous if their contributions look alike after removal of everything that the
-//! rest of the model can imitate. This depends on the motion. So the fitted model is run by the
-//! core along canned trajectories made of the record's own signals ([`trajectory`]), each
-//! contribution is projected off all the other columns of the model and their slopes, and off the
-//! rival with its shapes free, and what is left tells the two apart. The trajectory that leaves
-//! most is the experiment.
+//! rest of the model can imitate. This depends on the motion. The core therefore runs the fitted
+//! model along predefined trajectories, built from the record's own signals ([`trajectory`]). Each
+//! contribution is projected off all other columns of the model and their slopes, and off the
+//! alternative with free shapes. The remaining part distinguishes the two effects, and the
+//! trajectory with the largest remaining part is the experiment.
 //!
-//! All of it is first-order theory at the fitted values: it says what to expect, not what
-//! will be measured.
+//! All of this is first-order theory at the fitted values: a prediction, not a measurement.
 
 mod model;
 mod strengthen;
@@ -27,50 +26,50 @@ use crate::problem::Prepared;
 use model::{Beside, Model};
 use serde::Serialize;
 
-/// A planned experiment and what it is expected to show.
+/// A planned experiment and its expected result.
 #[derive(Debug, Clone, Serialize)]
 pub struct Experiment {
     /// How it moves.
     pub kind: Kind,
-    /// The same, with the record that it plays.
+    /// The kind of motion, and the record that it is built from.
     #[serde(skip)]
     pub way: Way,
-    /// In words, with its parameters.
+    /// The motion in words, with its parameters.
     pub trajectory: String,
     /// Length \[s\].
     pub seconds: f64,
     /// Largest speed of the input, as a multiple of the recorded one.
     pub speed: f64,
-    /// What is to be separated, or made known.
+    /// The effects to be separated, or the parameters to be identified.
     pub aims: Vec<Aim>,
 }
 
-/// One thing that an experiment is for.
+/// One purpose of an experiment.
 #[derive(Debug, Clone, Serialize)]
 pub struct Aim {
-    /// The effect that was named, or the parameter that is not known.
+    /// The named effect, or the parameter that is not identified.
     pub what: String,
-    /// The rival; `None` where a parameter is to be made known.
+    /// The alternative; `None` for a parameter.
     pub rival: Option<String>,
-    /// Projected correlation of the two contributions on the record; of a parameter, the
-    /// share of its slope that the others imitate.
+    /// Projected correlation of the two contributions on the record; for a parameter, the share of
+    /// its slope that the others imitate.
     pub correlation_now: f64,
-    /// The same, expected of the experiment.
+    /// The same, predicted for the experiment.
     pub correlation_then: f64,
-    /// Rms that a wrong name leaves on the record, in multiples of the present error; of a
-    /// parameter, one.
+    /// Rms error of a wrong term on the record, in multiples of the present error; for a parameter,
+    /// one.
     pub left_now: f64,
-    /// The same, expected of the experiment; of a parameter, how many times as strongly it
-    /// shows.
+    /// The same, predicted for the experiment; for a parameter, the factor by which it becomes more
+    /// visible.
     pub left_then: f64,
 }
 
-/// An experiment separates two effects if after it the wrong name leaves at least this many
-/// times the present error, and this many times what it leaves now: the error then rises by
-/// the half (the root of 1 + 1.2²), which no choice of blocks hides.
+/// An experiment separates two effects if the wrong term has at least this multiple of the present
+/// error on it, and this multiple of its error on the record. The error then rises by half (the
+/// root of 1 + 1.2²), which no choice of blocks can hide.
 const SEPARATES: f64 = 1.2;
 
-/// What stays of a contribution once its rival has imitated what it can.
+/// The part of a contribution that its alternative cannot imitate.
 struct Apart {
     correlation: f64,
     /// Rms in the output's unit.
@@ -99,7 +98,7 @@ fn pair(a: (&Beside, f64), b: (&Beside, f64)) -> Option<Apart> {
     })
 }
 
-/// A rival with its shapes fitted beside the rest of the model.
+/// An alternative with its shapes fitted together with the rest of the model.
 fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm> {
     let mut structure = round.solution.structure.clone();
     structure.terms.remove(*structure.terms.ids().last()?);
@@ -109,8 +108,8 @@ fn refined(data: &Prepared, round: &Round, rival: &Candidate) -> Option<FitTerm>
     fitted.terms.last().copied()
 }
 
-/// The experiment that separates what one round confounds; `None` where it has no rivals or
-/// where no motion that is known here would separate any of them.
+/// The experiment that separates a term from its alternatives; `None` if it has none, or if no
+/// predefined motion would separate any of them.
 #[must_use]
 pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     use rayon::prelude::*;
@@ -170,7 +169,7 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
     best(tried)
 }
 
-/// The experiment for the first confounded round of a run.
+/// The experiment for the first ambiguous term of a run.
 #[must_use]
 pub fn separate_first(data: &Prepared, ledger: &Ledger) -> Option<Experiment> {
     ledger.rounds.iter().find_map(|round| separate(data, round))

@@ -30,7 +30,7 @@ pub(super) struct Placed<'a> {
     pub(super) span: Span,
 }
 
-/// An effect beside a model on a motion.
+/// An effect in addition to a model on a motion.
 pub(super) struct Beside {
     /// What it adds for a gain of one that the model cannot imitate, on the rows of the fit
     /// segment.
@@ -40,7 +40,7 @@ pub(super) struct Beside {
 }
 
 impl Model {
-    /// A fitted model as it is.
+    /// The complete fitted model.
     pub(super) fn whole(solution: &Solution) -> Self {
         Self {
             structure: solution.structure.clone(),
@@ -99,7 +99,7 @@ impl Placed<'_> {
         Some(rows(self.data, &self.data.filtered(&raw)))
     }
 
-    /// An effect beside the model.
+    /// An effect in addition to the model.
     pub(super) fn beside(&self, term: &FitTerm) -> Option<Beside> {
         let column = self.column(term)?;
         Some(Beside {

@@ -16,7 +16,8 @@ const WORTH: f64 = 1.2;
 /// ... and where nothing is known of its interval, this many times. A choice.
 const TWICE: f64 = 2.0;
 
-/// Rms per row of a column once the others are taken off, and what they imitate of it.
+/// Rms per row of the part of a column that the other columns cannot imitate, and the share that
+/// they can imitate.
 fn shows(placed: &Placed<'_>, data: &Prepared, j: usize) -> Option<(f64, f64)> {
     let others = placed.columns.iter().enumerate();
     let others = Span::of(data, others.filter(|(k, _)| *k != j).map(|(_, c)| c));
@@ -34,8 +35,8 @@ struct Open {
     needs: f64,
 }
 
-/// What the record does not identify, but for how it began, which is no property of the rig, of so many
-/// parameters.
+/// The parameters that the record does not identify, except initial states, which are not a
+/// property of the rig, and the number of all parameters.
 fn open(data: &Prepared, solution: &Solution) -> (usize, Vec<Open>) {
     let all = parameters(data, solution);
     let count = all.len();
@@ -55,15 +56,15 @@ fn open(data: &Prepared, solution: &Solution) -> (usize, Vec<Open>) {
     (count, open.collect())
 }
 
-/// Names of what the record does not identify.
+/// Names of the parameters that the record does not identify.
 #[must_use]
 pub fn unidentified(data: &Prepared, solution: &Solution) -> Vec<String> {
     let (_, open) = open(data, solution);
     open.into_iter().map(|one| one.name).collect()
 }
 
-/// The experiment after which most of what the record does not identify is known; `None` where all is
-/// identified or no canned motion would help.
+/// The experiment that best identifies the remaining parameters; `None` if all are identified or no
+/// predefined motion would help.
 #[must_use]
 pub fn strengthen(data: &Prepared, solution: &Solution) -> Option<Experiment> {
     use rayon::prelude::*;

@@ -8,32 +8,32 @@ use crate::record::{Column, Record};
 use bowden_fourier::{Complex, Transform};
 use std::f64::consts::{PI, TAU};
 
-/// How a planned experiment moves.
+/// The kind of motion of a planned experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// The recorded motion at half its pace.
+    /// The recorded motion at half its speed.
     Slower,
-    /// At twice its pace, there and back.
+    /// The recorded motion at twice its speed, forward and backward.
     Faster,
-    /// One and a half times as far from the middle.
+    /// One and a half times the distance from the middle.
     LargerStroke,
-    /// Two fifths as far from the middle.
+    /// Two fifths of the distance from the middle.
     SmallerStroke,
-    /// The stroke swells and shrinks between a tenth and the whole.
+    /// The stroke varies between a tenth and the whole.
     SweptStroke,
-    /// The same motion about a centre half the half-range away.
+    /// The same motion about a centre that is shifted by half the half-range.
     OffsetCentre,
-    /// The motion stands still again and again.
+    /// The motion stops repeatedly.
     HoldAndWait,
-    /// The pace itself goes slowly between half and double.
+    /// The speed varies slowly between half and double.
     MixedPace,
     /// The recorded spectrum with random phases.
     Multisine,
 }
 
 impl Kind {
-    /// All of them; of equals the earlier one is taken.
+    /// All kinds; among equals, the earlier one is chosen.
     pub const ALL: [Self; 9] = [
         Self::Slower,
         Self::Faster,
@@ -47,17 +47,17 @@ impl Kind {
     ];
 }
 
-/// A kind of motion, and the record that it is made of.
+/// A kind of motion, and the record that it is built from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Way {
-    /// Place of that record among those that were identified together.
+    /// Index of this record among the records that were identified together.
     pub record: usize,
     /// How it moves.
     pub kind: Kind,
 }
 
 impl Way {
-    /// Every kind of motion of every record; of equals the earlier one is taken.
+    /// Every kind of motion of every record; among equals, the earlier one is chosen.
     #[must_use]
     pub fn all(data: &Prepared) -> Vec<Self> {
         let records = 0..data.pieces.len().max(1);
@@ -72,9 +72,9 @@ const HOLD: (f64, f64) = (0.5, 5.0);
 /// A planned motion: every signal of the record on a uniform time.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
-    /// How it moves, and what it is made of.
+    /// Its kind, and the record that it is built from.
     pub way: Way,
-    /// In words, with its parameters.
+    /// The motion in words, with its parameters.
     pub words: String,
     /// Step \[s\].
     pub step: f64,
@@ -154,8 +154,8 @@ impl Source<'_> {
         self.moved(|i, x, middle, _| middle + factor(i as f64 * dt) * (x - middle))
     }
 
-    /// Random phases, the same for all signals at each frequency: what is linear between
-    /// them stays. Scaled so that no signal leaves its recorded range.
+    /// Random phases, the same for all signals at each frequency, so that linear relations between
+    /// the signals are kept. The signals are scaled so that none leaves its recorded range.
     fn multisine(&self) -> Vec<Vec<f64>> {
         let n = self.signals[0].len();
         let (there, back) = (Transform::forward(n), Transform::inverse(n));
@@ -282,7 +282,7 @@ fn moves(index: usize, name: &str) -> bool {
     index == 0 || name.starts_with("phi") || name.starts_with("angle")
 }
 
-/// The trajectory of a kind of motion, made of one of the records.
+/// The trajectory of a kind of motion, built from one of the records.
 #[must_use]
 pub fn trajectory(data: &Prepared, way: Way) -> Trajectory {
     let piece = data.pieces.get(way.record);
@@ -323,7 +323,7 @@ pub fn trajectory(data: &Prepared, way: Way) -> Trajectory {
 }
 
 impl Trajectory {
-    /// The planned motion on the grids of a record; `None` where it is too short for them.
+    /// The planned motion on the grids of a record; `None` if it is too short for them.
     #[must_use]
     pub fn prepared(&self, data: &Prepared) -> Option<Prepared> {
         let mut signals = self.signals.iter().cloned();
@@ -350,7 +350,7 @@ impl Trajectory {
         Prepared::new(&record, Preparation { cutoff }).ok()
     }
 
-    /// As CSV: `t [s]`, the reference of the input, then what the channels are taken to do.
+    /// As CSV: `t [s]`, the reference of the input, then the assumed motion of the channels.
     #[must_use]
     pub fn csv(&self) -> String {
         use std::fmt::Write as _;

@@ -4,23 +4,23 @@
 //! found. Therefore every effect of the catalogue is planted into the user's own record, and the
 //! same search is run again:
 //!
-//! 1. The record is closed. Its last model stands for the rig, what that leaves for the
-//!    noise.
-//! 2. A trial's output is that model's prediction, plus the residual under a circular shift
-//!    (and every other time a change of sign), plus the effect: at the middle one of its
-//!    trial shapes, on the record's own motion, computed by the core. A shift keeps the
-//!    residual's colour and breaks its bond with the motion. The output is that behind the
-//!    smoother at 2.5 f_c, on the work grid; the filter at f_c follows as for the record.
-//! 3. A screen by linear theory finds where nine trials of ten pass the sign-flip test with
+//! 1. A model is identified from the record. The last model represents the rig, and its residual
+//!    the noise.
+//! 2. A trial's output is that model's prediction, plus the residual under a circular shift (and
+//!    every other time a change of sign), plus the effect: at the middle one of its trial shapes,
+//!    on the record's own motion, computed by the core. A shift keeps the residual's colour, but
+//!    removes its relation to the motion. The output is the one after the smoother at 2.5 f_c, on
+//!    the work grid; the filter at f_c follows as for the record.
+//! 3. Linear theory predicts the amplitude at which nine of ten trials pass the sign-flip test with
 //!    a twentieth of the squared error (`screen`).
-//! 4. From there the amplitude goes up or down by the square root of two, and by the fourth
-//!    root at the end, and **every trial is closed as a whole**: fits, scan, duel, gates
-//!    and all rounds. The effect counts as found where its family is named in any round or
-//!    stands among the rivals of one. The smallest amplitude at which nine of ten do so is
-//!    reported; below it the search saw at least one in ten fail.
+//! 4. From there the amplitude changes by the square root of two, and at the end by the fourth
+//!    root. **Every trial is a complete identification**, with search, refits and tests. The effect
+//!    counts as found if its family is named as a term or as an alternative. The smallest amplitude
+//!    at which nine of ten trials find it is reported; at the next smaller one, at least one in ten
+//!    failed.
 //!
-//! Trials without an effect are closed too: how often something is named there anyway.
-//! Nothing is random; the same record gives the same table.
+//! Trials without a planted effect show how often an effect is named by mistake. Nothing is random;
+//! the same record gives the same table.
 
 mod planted;
 mod screen;
@@ -36,13 +36,14 @@ use crate::search::close;
 use planted::Trials;
 use screen::Screen;
 
-/// Share of the trials in which an effect has to be found.
+/// Share of the trials in which an effect must be found.
 pub const SHARE: f64 = 0.9;
 
-/// Trials of each amplitude unless the user wants another number.
+/// Default number of trials of each amplitude.
 pub const TRIALS: usize = 10;
 
-/// Fewest trials that can tell nine of ten from less, and the most that are useful.
+/// Smallest number of trials that can distinguish nine of ten from less, and the largest useful
+/// number.
 pub const TRIALS_RANGE: std::ops::RangeInclusive<usize> = 5..=200;
 
 /// Steps by the square root of two, up or down.
@@ -51,7 +52,7 @@ const STEPS: usize = 10;
 /// What is asked.
 #[derive(Debug, Clone)]
 pub struct Question {
-    /// Effects or families by name; all where empty.
+    /// Effects or families by name; all if empty.
     pub effects: Vec<String>,
     /// Trials of each amplitude.
     pub trials: usize,
@@ -66,7 +67,7 @@ impl Default for Question {
     }
 }
 
-/// What came out for one effect.
+/// The result for one effect.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
     /// Found from this amplitude on.
@@ -80,22 +81,22 @@ pub enum Answer {
         /// What linear theory had said.
         screened: f64,
     },
-    /// Not found at the largest amplitude that was tried, the rms of the output or 32 times
-    /// what linear theory says.
+    /// Not found at the largest tested amplitude: the rms of the output, or 32 times the prediction
+    /// of linear theory.
     NotFound {
         /// That amplitude.
         tried: f64,
     },
-    /// The motion does not show it apart from what the model can move.
+    /// The motion does not excite the effect independently of the model's parameters.
     NotExcited,
-    /// The model has it already.
+    /// The model already contains the effect.
     InModel,
 }
 
 /// One row of the table.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// The effect with the shapes that were planted, and what it reads.
+    /// The effect with the planted shapes, and its source.
     pub term: FitTerm,
     /// What came out.
     pub answer: Answer,
@@ -108,7 +109,7 @@ pub struct Power {
     pub rows: Vec<Row>,
     /// Trials of each amplitude.
     pub trials: usize,
-    /// Trials without an effect in which something was named.
+    /// Trials without a planted effect in which an effect was named.
     pub named_without: usize,
 }
 
@@ -261,11 +262,11 @@ impl Search<'_> {
     }
 }
 
-/// The table for a record that was closed. `progress` is told how many rows of how many are
-/// done, from any thread.
+/// The table for an identified record. `progress` receives the number of completed rows and of all
+/// rows, from any thread.
 ///
 /// # Errors
-/// One sentence where a name is asked for that the record cannot be asked for.
+/// A message if a requested effect cannot be tested on the record.
 pub fn power(
     data: &Prepared,
     ledger: &Ledger,
@@ -307,7 +308,7 @@ pub fn power(
     })
 }
 
-/// How many of so many trials are nine of ten.
+/// The number of trials that is at least nine tenths of the given number.
 fn needed(trials: usize) -> usize {
     (SHARE * trials as f64).ceil() as usize
 }

@@ -4,7 +4,7 @@ use crate::fit::Solution;
 use crate::model::structure::{sign, FitTerm};
 use crate::problem::Prepared;
 
-/// The model's prediction and what it leaves, on the work grid.
+/// The model's prediction and its residual, on the work grid.
 pub(super) struct Trials {
     prediction: Vec<f64>,
     residual: Vec<f64>,
@@ -62,7 +62,7 @@ pub(super) struct Contribution {
     pub(super) rms: f64,
 }
 
-/// What a term adds along the record; `None` where that is nothing.
+/// The contribution of a term along the record; `None` if it is zero.
 pub(super) fn contribution(
     data: &Prepared,
     solution: &Solution,

@@ -1,9 +1,9 @@
 //! The starting amplitude, from linear theory.
 //!
-//! The column and each trial's residual, projected off all that the model can move, give
-//! the sixteen block scores a·c'c + c'r of the scan. So the sign-flip test and the share
-//! of the squared error are known for every amplitude `a` without a fit. That there are
-//! other candidates, refits and gates is left to the closing of whole trials.
+//! The column and each trial's residual, projected off all that the model can move, give the
+//! sixteen block scores a·c'c + c'r of the scan. So the sign-flip test and the share of the squared
+//! error are known for every amplitude `a` without a fit. Other candidates, refits and gates are
+//! not considered here, only in the complete trials.
 
 use super::needed;
 use super::planted::Trials;

@@ -72,7 +72,7 @@ pub fn stage_column(data: &Prepared, effect: &Effect<f64>, output: &[f64]) -> Ve
     Stages::none(data).alone(effect, output)
 }
 
-/// The regressor of one effect along the work grid; `None` where its channel is missing.
+/// The regressor of one effect along the work grid; `None` if its channel is missing.
 #[must_use]
 pub fn effect_column(data: &Prepared, term: &FitTerm, eta: &[f64]) -> Option<Vec<f64>> {
     if let [piece] = &data.pieces[..] {
@@ -150,7 +150,7 @@ fn before(
 
 /// All columns for the given values of the free parameters.
 ///
-/// `None` where a shape is outside of what the core admits.
+/// `None` if a shape is outside the range that the core admits.
 #[must_use]
 pub fn raw_columns(
     data: &Prepared,
@@ -241,12 +241,12 @@ fn hysteresis(data: &Prepared, free: &[Free], values: &[f64]) -> Option<(BoucWen
     Some((shape, (0..data.pieces.len()).map(eta0).collect()))
 }
 
-/// Whether the column of a linear term depends on a free parameter of its own.
+/// Whether the column of a linear term depends on one of the term's free parameters.
 fn is_searched(free: &[Free], term: TermId) -> bool {
     free.iter().any(|f| f.role.term() == Some(term))
 }
 
-/// A column of the transmission: as it is, or on one record alone where each has its own.
+/// A column of the transmission: on all records, or on one record if the gains are separate.
 fn of_record(data: &Prepared, structure: &Structure, column: &[f64], record: usize) -> Stretch {
     if structure.own_gains == 0 {
         return column.to_vec().into();
@@ -345,7 +345,7 @@ fn along(
 }
 
 impl RawColumns {
-    /// The slopes of all columns in all free parameters.
+    /// The derivatives of all columns with respect to all free parameters.
     #[must_use]
     pub fn moves(
         &self,

@@ -32,7 +32,7 @@ impl Stages {
         }
     }
 
-    /// Those among the terms, each with its gain; `None` where a gain is not given.
+    /// The stages among the terms, each with its gain; `None` if a gain is not given.
     pub(super) fn of(
         data: &Prepared,
         terms: &Terms,
@@ -124,7 +124,7 @@ impl Stages {
     }
 }
 
-/// output += what the stage adds at that gain, along one record, for each column of it.
+/// Adds the contribution of the stage at this gain, along one record, to each column.
 fn apply_stage(effect: &Effect<f64>, gain: f64, columns: &mut [&mut [f64]], dt: f64) {
     if abreast::through(effect, gain, columns, dt) {
         return;
@@ -138,8 +138,8 @@ fn apply_stage(effect: &Effect<f64>, gain: f64, columns: &mut [&mut [f64]], dt: 
     }
 }
 
-/// Sends a record through a stage block by block, and lets the stage forget what it remembers
-/// where it is silent: as in the filter, it would decay to denormal floats.
+/// Runs a stage over a record block by block, and clears its memory where the column is zero: as in
+/// the filter, the memory would decay to denormal floats.
 fn in_blocks(record: &mut [f64], mut through: impl FnMut(&mut EffectState<f64>, &[Cell<f64>])) {
     let is_all_silent = |block: &[Cell<f64>]| block.iter().all(|v| is_silent(v.get()));
     let mut state = EffectState::default();

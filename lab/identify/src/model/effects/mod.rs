@@ -1,4 +1,4 @@
-//! A table of what the lab knows about each effect of the core's catalogue.
+//! The table of the lab's properties of each effect in the core's catalogue.
 //!
 //! The core defines how an effect is computed. This table defines how the lab uses it: on which
 //! channels and at which shapes it is tried, how `--baseline` names it, over which range each shape
@@ -137,7 +137,7 @@ pub(crate) enum FittedZero {
 /// What people tell two effects of one name and channel apart by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ToldBy {
-    /// The name says all.
+    /// The name is sufficient.
     Name,
     /// Its first shape, a frequency \[Hz\].
     Frequency,
@@ -150,7 +150,7 @@ pub(crate) enum ToldBy {
 pub(crate) enum Declared {
     /// On the channel that the user names, or on the usual one.
     OnChannel(&'static [Scale]),
-    /// On the input, from the sensor's zero, whatever channel is named.
+    /// On the input, from the sensor's zero, for any named channel.
     OnInput(&'static [Scale]),
     /// On the channel that is the stretch of a cable; it has no shapes.
     OnStretch,
@@ -219,7 +219,7 @@ pub(crate) fn first_of(family: &str) -> Option<&'static Entry> {
     entry(first.name)
 }
 
-/// Rank of an effect's family among alternatives, of which the lowest is named.
+/// Rank of an effect's family among alternatives; the lowest rank is named.
 pub(crate) fn rank(name: &str) -> usize {
     entry(name).map_or(CATALOGUE.len(), |entry| entry.rank)
 }

@@ -12,7 +12,7 @@ const SLOW_STROKES: &str = "slow strokes over the whole range of position";
 const LOADS: &str = "the same motion under several loads";
 const HELD_END: &str = "motion of one end while the other is held, up to the largest load";
 
-/// Beyond this width it is no longer dry friction but a bent viscous term.
+/// Above this width the effect is a bent viscous term instead of dry friction.
 const SMOOTH_SIGN: Bounds = Bounds::Speed(1e-3, 0.15);
 /// Stribeck friction is a matter of low speed.
 const LOW_SPEED: Bounds = Bounds::Speed(1e-2, 0.5);

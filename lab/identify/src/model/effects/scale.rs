@@ -69,7 +69,7 @@ pub(crate) enum Bounds {
 }
 
 impl Bounds {
-    /// The range on a channel; `None` where the shape stays as it was set.
+    /// The range on a channel; `None` if the shape stays as it was set.
     pub(crate) fn on(self, data: &Prepared, channel: &Channel, value: f64) -> Option<Range> {
         let (reach, speed) = (channel.reach, channel.speed);
         if !(reach > 0.0 && speed > 0.0) {
