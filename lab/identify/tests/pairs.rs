@@ -14,7 +14,7 @@ mod shared;
 use bowden_lab::check::Verdict;
 use bowden_lab::ledger::Grade;
 use pair::{known, print_agreement, Carried, Closed, Identity, Name, Rig, Share};
-use shared::{disturbed, Row, DAMPER, DAVINCI_03, DAVINCI_23, PIEZO_FULL, PIEZO_VARYING};
+use shared::{disturbed, Row, DAMPER, DAVINCI_03, DAVINCI_23, EMPS, PIEZO_FULL, PIEZO_VARYING};
 use std::sync::LazyLock;
 
 /// Records of one rig, all read as its row says.
@@ -25,7 +25,7 @@ struct Pair {
 }
 
 /// The damper at 0.5 A: another current is another damper.
-const PAIRS: [Pair; 3] = [
+const PAIRS: [Pair; 4] = [
     Pair {
         name: "magnetorheological damper, 0.5 A",
         row: DAMPER,
@@ -44,6 +44,11 @@ const PAIRS: [Pair; 3] = [
         name: "da Vinci tool 4",
         row: DAVINCI_03,
         files: &[DAVINCI_03.file, DAVINCI_23.file],
+    },
+    Pair {
+        name: "positioning drive",
+        row: EMPS,
+        files: &[EMPS.file, "emps/emps_validation_pulses.csv"],
     },
 ];
 

@@ -264,19 +264,16 @@ pub fn print_agreement(rigs: &[Rig]) {
         let [own, own_high] = rig.mechanisms();
         [all + own, high + own_high]
     });
-    let [chance, chance_high] = by_chance(rigs);
+    let [chance, chance_high] = by_chance(rigs).map(|share| match share.of {
+        0 => String::new(),
+        _ => format!("{share} ({:.0} %)", share.percent()),
+    });
     println!(
         "\n| the main missing mechanism is the same | of one rig | of different rigs (chance) |"
     );
     println!("|---|---|---|");
-    println!(
-        "| pairs of records | {all} | {chance} ({:.0} %) |",
-        chance.percent()
-    );
-    println!(
-        "| of these, both with high confidence | {high} | {chance_high} ({:.0} %) |",
-        chance_high.percent()
-    );
+    println!("| pairs of records | {all} | {chance} |");
+    println!("| of these, both with high confidence | {high} | {chance_high} |");
     println!(
         "\n{} records of {} rigs: {} lack a mechanism, {} of these with high confidence; {} have a high-confidence term",
         records.len(),
