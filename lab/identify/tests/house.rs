@@ -60,14 +60,14 @@ const CONSTANTS: [(&str, usize); 18] = [
     ("identify/fit", 9),
     ("identify/foresight", 12),
     ("identify/model", 12),
-    ("identify/problem", 29),
+    ("identify/problem", 28),
     ("identify/score", 30),
     ("identify/search", 51),
     ("page", 5),
-    ("record", 99),
-    ("rig", 6),
+    ("record", 33),
+    ("rig", 5),
     ("synth", 10),
-    ("trials", 50),
+    ("trials", 48),
 ];
 
 /// The folder of a package of the lab.
@@ -176,7 +176,9 @@ fn used(own: &[String], text: &str) -> Vec<Vec<String>> {
     for piece in code(text).split(';') {
         let start = piece.rfind("use ").filter(|start| {
             let before = piece[..*start].lines().last().unwrap_or_default().trim();
-            before.is_empty() || before.starts_with("pub")
+            // A sentence may go on with `use` behind a semicolon.
+            let is_sentence = piece[*start..].contains('"');
+            !is_sentence && (before.is_empty() || before.starts_with("pub"))
         });
         if let Some(start) = start {
             leaves("", &piece[start + 4..], &mut paths);
@@ -363,7 +365,8 @@ fn constants(text: &str) -> usize {
                 "f64" | "f32" | "usize" | "u64" | "u32" | "i64" | "i32" | "u8" | "Duration"
             )
         });
-        let is_text = kind.contains("str");
+        // `const N: usize>(` is a parameter, whatever stands behind it.
+        let is_text = kind.contains("str") || kind.starts_with("usize>");
         Some(is_name && is_number && !is_text && value.contains(|c: char| c.is_ascii_digit()))
     });
     declared.filter(|&is| is).count()

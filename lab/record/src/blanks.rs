@@ -6,7 +6,8 @@
 //! belongs to the name before it. If this does not result in one name for each column, two blanks
 //! separate the names.
 
-use super::layout::{HEAD, HEAD_BYTES, TABLE};
+use super::layout::TABLE;
+use super::limits::head;
 use super::number::is_data;
 use std::borrow::Cow;
 
@@ -25,12 +26,7 @@ pub(super) fn as_tabs(text: &str) -> Cow<'_, str> {
 /// Number of columns, where blanks separate them.
 fn width(text: &str) -> Option<usize> {
     let (mut rows, mut width) = (0, 0);
-    let mut read = 0;
-    for line in text.split_inclusive('\n').take(HEAD) {
-        read += line.len();
-        if read > HEAD_BYTES {
-            return None;
-        }
+    for (_, line) in head(text) {
         match numbers(line) {
             Some(count) if count == width => rows += 1,
             Some(count) => (rows, width) = (1, count),

@@ -1,10 +1,11 @@
 //! Checks for invalid options, and for columns without a measurement.
 
-use super::clipping::{self, range};
+use super::defects::heavy;
 use super::error::RecordError;
 use super::header::Header;
 use super::roles::Roles;
 use super::rows::Table;
+use super::scale::range;
 use super::Options;
 
 /// Rejects options that are invalid for every record.
@@ -65,10 +66,9 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
         return Err(RecordError::at(line, message).on(name(roles.output)));
     }
     for (_, index, values, other) in ends {
-        if let Some(clipped) = clipping::heavy(values, other) {
-            let first = clipped.plateaus.first().map_or(0, |plateau| plateau.start);
+        if let Some((first, message)) = heavy(values, other) {
             let line = table.lines.get(first).copied().unwrap_or(header.line);
-            return Err(RecordError::at(line, clipped.to_string()).on(name(index)));
+            return Err(RecordError::at(line, message).on(name(index)));
         }
     }
     Ok(())

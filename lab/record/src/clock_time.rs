@@ -1,12 +1,8 @@
 //! Times of day and dates as time stamps: `14:03:21.250`, `2026-03-01T14:03:21.250`; and `03:21.2`,
 //! minutes and seconds, as Excel shows times.
 
-/// Days from the year 0 to a day near the year 2000, from which seconds are counted: so a
-/// double has 0.1 µs left.
-const EPOCH: i64 = 730_000;
-
-/// Seconds of a time stamp, from midnight or, with a date, from a fixed day; `None` if it is not a
-/// time stamp. The year comes first or, with points, last: `1/2/2026` may mean two different days.
+/// Seconds of a stamp, from midnight or, with a date, from a day that is the same for all;
+/// `None` where it is none. Years come first or, with points, last: `1/2/2026` is two different days.
 pub(super) fn seconds(cell: &str) -> Option<f64> {
     let (date, time) = match cell.find([' ', 'T']) {
         Some(at) => (Some(&cell[..at]), cell[at + 1..].trim_start()),
@@ -128,7 +124,9 @@ fn days(date: &str) -> Option<i64> {
         1 | 2 => (year - 1, month + 9),
         _ => (year, month - 3),
     };
-    Some(365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day - EPOCH)
+    let of_years = 365 * year + year / 4 - year / 100 + year / 400;
+    // From a day near the year 2000, so that a double of seconds has 0.1 µs left.
+    Some(of_years + (153 * month + 2) / 5 + day - 730_000)
 }
 
 /// Days of a month; `None` if there is no such month.

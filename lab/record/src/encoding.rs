@@ -5,11 +5,9 @@
 //! of the file is UTF-8, and never with control codes.
 
 use super::error::RecordError;
+use super::limits::PIECES;
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
-
-/// UTF-16 without a mark is recognised in this many bytes.
-const PROBE: usize = 1 << 10;
 
 /// The text of a record, after its byte-order mark, up to its last row; every line ends with `\n`,
 /// possibly after a `\r`.
@@ -52,7 +50,7 @@ fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
 
 /// UTF-16 of a text that is mostly ASCII: every other byte is NUL.
 fn unmarked(bytes: &[u8]) -> Option<&'static Encoding> {
-    let head = &bytes[..bytes.len().min(PROBE) & !1];
+    let head = &bytes[..bytes.len().min(PIECES) & !1];
     let nul = |side: usize| {
         head.iter()
             .skip(side)

@@ -115,6 +115,17 @@ impl std::error::Error for RecordError {}
 
 /// Names longer than this are shortened in messages.
 pub(super) const NAME_LENGTH: usize = 40;
+/// Cells longer than this are shortened in messages, and lists with more names.
+pub(super) const SHOWN: usize = 24;
+
+/// A list of names, and how many more there are.
+pub(super) fn listed(names: &[String]) -> String {
+    let list = names[..names.len().min(SHOWN)].join(", ");
+    match names.len().saturating_sub(SHOWN) {
+        0 => list,
+        more => format!("{list} and {more} more"),
+    }
+}
 
 /// Text from a file, safe to print on one line of a terminal.
 pub(super) fn shown(text: &str, limit: usize) -> String {

@@ -3,14 +3,10 @@
 use super::encoding;
 use super::error::RecordError;
 use super::kind::{self, Kind};
+use super::limits::{too_large, BYTES, PIECES};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
-
-/// Largest file that is read [bytes]: about ten hours of six columns at 1 kHz.
-pub(super) const LIMIT: u64 = 1 << 31;
-/// A file that is not read is recognised within these first bytes and not taken in further.
-const PROBE: u64 = 1 << 16;
 
 pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
     let refuse = |message: String| RecordError::new(message).in_file(label);
@@ -29,21 +25,19 @@ pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
     let mut file = File::open(path).map_err(failed)?;
     let mut bytes = Vec::new();
     (&mut file)
-        .take(PROBE)
+        .take(PIECES as u64)
         .read_to_end(&mut bytes)
         .map_err(failed)?;
+    // A file that is not read is not taken in further.
     let kind = kind::of(&bytes).map_err(|error| error.in_file(label))?;
     if kind != Kind::Text || !bytes.contains(&0) || encoding::is_wide(&bytes) {
         (&mut file)
-            .take(LIMIT)
+            .take(BYTES)
             .read_to_end(&mut bytes)
             .map_err(failed)?;
     }
-    if bytes.len() as u64 > LIMIT {
-        return Err(refuse(format!(
-            "is larger than {} MiB; cut it into records",
-            LIMIT >> 20
-        )));
+    if bytes.len() as u64 > BYTES {
+        return Err(too_large("").in_file(label));
     }
     Ok(bytes)
 }

@@ -1,11 +1,8 @@
 //! The columns of a file, and the column that a name refers to.
 
-use super::error::{shown, RecordError, NAME_LENGTH};
+use super::error::{listed, shown, RecordError, NAME_LENGTH};
 use super::text::Rows;
 use super::{number, sizes, units};
-
-/// At most this many names are listed in a message.
-const LISTED: usize = 24;
 
 /// Jaro-Winkler similarity above which one name may have been meant as another: `x` and `x_mm`
 /// have 0.775, `t` and `tau_o` 0.76, `tau_i` and `force` 0.46.
@@ -151,16 +148,7 @@ impl Header {
             }
         }
         let quoted = |name: &&str| format!("`{}`", shown(name, NAME_LENGTH));
-        let mut list = names
-            .iter()
-            .take(LISTED)
-            .map(quoted)
-            .collect::<Vec<_>>()
-            .join(", ");
-        if names.len() > LISTED {
-            list += &format!(" and {} more", names.len() - LISTED);
-        }
-        list
+        listed(&names.iter().map(quoted).collect::<Vec<_>>())
     }
 }
 

@@ -4,16 +4,7 @@
 //! lag or friction. Its updates are true samples; a curve through them replaces the staircase. The
 //! steps of a converter look similar during uniform motion, but then all steps are one count.
 
-/// Shortest period of the updates [rows].
-const SHORTEST: f64 = 4.0;
-/// Minimum number of updates that determine their period.
-const FEWEST: usize = 60;
-/// Share of updates that must lie on the period, to within a row.
-const REGULAR: f64 = 0.95;
-/// Largest share of steps of one count, which a held signal of a fine sensor rarely has.
-const ONE_COUNT: f64 = 0.5;
-/// After this many periods without an update the signal was at rest, and stays a line.
-const RESTED: f64 = 1.5;
+use super::scale::{quantile, ENOUGH, PART};
 
 /// Replaces stairs with a curve through their edges; returns a note. `step` is the time of one row
 /// \[s\].
@@ -28,14 +19,17 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
         .collect();
     let count = sizes.iter().copied().fold(f64::INFINITY, f64::min);
     let ones = sizes.iter().filter(|size| **size < 1.5 * count).count();
-    if ones as f64 > ONE_COUNT * sizes.len() as f64 {
+    // Most steps of a held signal of a fine sensor are larger.
+    if 2 * ones > sizes.len() {
         return None;
     }
+    // A period and a half without an update: the signal was at rest, and stays a line.
+    let rested = |rows: usize| rows as f64 > 1.5 * period;
     let at: Vec<f64> = edges.iter().map(|&i| values[i]).collect();
     // The slope at an edge, from the neighbouring edges.
     let slope = |k: usize| -> f64 {
         let (before, after) = (k.saturating_sub(1), (k + 1).min(edges.len() - 1));
-        let rests = |a: usize, b: usize| (edges[b] - edges[a]) as f64 > RESTED * period;
+        let rests = |a: usize, b: usize| rested(edges[b] - edges[a]);
         match before == after || rests(before, k) || rests(k, after) {
             true => 0.0,
             false => (at[after] - at[before]) / (edges[after] - edges[before]) as f64,
@@ -44,7 +38,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
     for k in 0..edges.len() - 1 {
         let (from, to) = (edges[k], edges[k + 1]);
         let length = (to - from) as f64;
-        if length > RESTED * period {
+        if rested(to - from) {
             // It rested until one period before the next update.
             let last = to - period.round() as usize;
             for (i, value) in values[last + 1..to].iter_mut().enumerate() {
@@ -73,23 +67,19 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
 
 /// The period of the updates [rows]; `None` if they have none.
 fn period(edges: &[usize]) -> Option<f64> {
-    let mut gaps: Vec<usize> = edges.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if gaps.len() < FEWEST {
-        return None;
-    }
-    let all = gaps.clone();
-    let middle = gaps.len() / 2;
-    let usual = *gaps.select_nth_unstable(middle).1 as f64;
-    let near = all.iter().map(|gap| *gap as f64);
+    let gaps = edges.windows(2).map(|pair| (pair[1] - pair[0]) as f64);
+    let all: Vec<f64> = gaps.collect();
+    let usual = quantile(all.iter().copied(), 0.5).filter(|_| all.len() >= ENOUGH)?;
+    let near = all.iter().copied();
     let near: Vec<f64> = near.filter(|gap| (gap - usual).abs() <= 1.0).collect();
     let period = near.iter().sum::<f64>() / near.len().max(1) as f64;
-    let is_regular = |gap: &&usize| {
-        let gap = **gap as f64;
-        let steps = (gap / period).round().max(1.0);
-        (gap - steps * period).abs() <= 1.0 + 0.02 * steps
+    let is_regular = |gap: &&f64| {
+        let steps = (**gap / period).round().max(1.0);
+        (**gap - steps * period).abs() <= 1.0 + 0.02 * steps
     };
     let regular = all.iter().filter(is_regular).count() as f64;
-    (period >= SHORTEST && regular >= REGULAR * all.len() as f64).then_some(period)
+    // To within a row, any updates lie on a shorter period.
+    (period >= 4.0 && regular >= (1.0 - PART) * all.len() as f64).then_some(period)
 }
 
 fn two_decimals(value: f64) -> f64 {

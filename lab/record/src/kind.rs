@@ -74,9 +74,6 @@ const HDF5: &str = "save it as CSV, Parquet or .mat v5";
 /// The command for MATLAB instead of its other forms.
 const V7: &str = "save it in MATLAB with `save -v7`";
 
-/// Where an HDF5 file with a header of MATLAB begins.
-const BEHIND_HEADER: usize = 512;
-
 /// The form of a file.
 ///
 /// # Errors
@@ -97,7 +94,8 @@ pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     if bytes.starts_with(b"PARE") {
         return refuse("an encrypted Parquet file", "save it without encryption");
     }
-    let behind = bytes.get(BEHIND_HEADER..).unwrap_or_default();
+    // Behind the header of MATLAB.
+    let behind = bytes.get(512..).unwrap_or_default();
     if bytes.starts_with(b"MATLAB 7.3 MAT-file") || behind.starts_with(b"\x89HDF\r\n\x1a\n") {
         return Ok(Kind::MatHdf5);
     }

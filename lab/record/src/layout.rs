@@ -10,12 +10,8 @@ use super::header::{self, Header};
 use super::number::is_data;
 use super::roles::{self, Roles};
 use super::text::Rows;
-use super::{clock_time, units, Options};
+use super::{clock_time, limits, units, Options};
 
-/// Maximum number of lines in which the table is searched.
-pub(super) const HEAD: usize = 1000;
-/// Maximum number of bytes of these lines.
-pub(super) const HEAD_BYTES: usize = 1 << 20;
 /// This many successive rows of numbers, or all that there are, make a table.
 pub(super) const TABLE: usize = 3;
 /// Maximum number of rows between the names and the numbers.
@@ -243,12 +239,7 @@ struct Head<'a> {
 
 impl<'a> Head<'a> {
     fn new(text: &'a str, separator: u8) -> Self {
-        let mut start = 0;
-        let lines = text.split_inclusive('\n').take(HEAD).map_while(|line| {
-            let at = start;
-            start += line.len();
-            (start <= HEAD_BYTES).then(|| (at, cells(line, separator)))
-        });
+        let lines = limits::head(text).map(|(at, line)| (at, cells(line, separator)));
         Self {
             separator,
             lines: lines.collect(),

@@ -4,8 +4,8 @@
 //! of numbers is a vector, or a matrix whose columns are named by an array of as many texts. The
 //! fields of a structured array are vectors. Every length is checked against the number of bytes.
 
-use super::file::LIMIT;
-use super::vectors::{Value, MOST_COLUMNS};
+use super::limits::{too_large, BYTES, COLUMNS};
+use super::vectors::Value;
 use flate2::read::DeflateDecoder;
 use flate2::Crc;
 use std::io::Read;
@@ -19,7 +19,7 @@ fn damaged(what: &str) -> Damage {
 
 /// The arrays of an archive, each with its name.
 pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
-    let mut left = LIMIT;
+    let mut left = BYTES;
     let mut all = Vec::new();
     for (name, at) in entries(bytes)? {
         if let Some(own) = name.strip_suffix(".npy") {
@@ -114,10 +114,7 @@ fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
     };
     read.map_err(|error| damaged(&error.to_string()))?;
     if file.len() as u64 > left {
-        return Err(format!(
-            "is larger than {} MiB unpacked; cut it into records",
-            LIMIT >> 20
-        ));
+        return Err(too_large(" unpacked").message().to_owned());
     }
     let mut own = Crc::new();
     own.update(&file);
@@ -224,7 +221,7 @@ fn numbers(values: Option<Vec<f64>>, shape: &[usize], by_column: bool) -> Value 
         [rows, columns] => (*rows, *columns),
         _ => (values.len(), 1),
     };
-    let values = match by_column || rows.min(columns) < 2 || rows.min(columns) > MOST_COLUMNS {
+    let values = match by_column || rows.min(columns) < 2 || rows.min(columns) > COLUMNS {
         true => values,
         false => {
             let column = |k: usize| values.iter().skip(k).step_by(columns).copied();

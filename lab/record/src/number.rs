@@ -1,13 +1,11 @@
 //! The number in a cell.
 
-use super::error::{shown, Bad, RecordError};
+use super::error::{shown, Bad, RecordError, SHOWN};
 use super::thousands::Thousands;
 use std::cell::{Cell, RefCell};
 
 /// Beyond this a product of two values, or its square, would overflow.
 pub(super) const LARGEST: f64 = 1e150;
-
-const CELL_LENGTH: usize = 24;
 
 /// The sign between the integer and the decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +92,7 @@ impl Notation {
     }
 
     fn mixed(&self, cell: &str, line: usize, column: &str) -> Result<f64, RecordError> {
-        let text = shown(cell, CELL_LENGTH);
+        let text = shown(cell, SHOWN);
         let message = match cell.parse::<f64>() {
             Ok(_) => format!(
                 "`{text}` has a decimal point; write a decimal comma, as in line {}",
@@ -121,7 +119,7 @@ fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<
         let message = "the cell is empty, but must be a number; --drop-bad drops such rows";
         return Err(RecordError::at(line, message).on(column).from(Bad::Empty));
     }
-    let text = shown(cell, CELL_LENGTH);
+    let text = shown(cell, SHOWN);
     match parsed {
         Some(value) if value.is_nan() => Err(RecordError::at(line, not_finite(&text))
             .on(column)
@@ -168,7 +166,7 @@ const MARKS: [&str; 21] = [
 
 /// The message that a cell is not a number, and the required form if it can be determined.
 fn no_number(cell: &str) -> String {
-    let text = shown(cell, CELL_LENGTH);
+    let text = shown(cell, SHOWN);
     let upper = cell.to_uppercase();
     let is_mark = is_sheet_error(cell) || MARKS.contains(&upper.trim_start_matches('+'));
     if is_mark || MARKS.contains(&upper.trim_start_matches('-')) {

@@ -4,6 +4,7 @@
 //! Rust: snappy, gzip and lz4. Its message about a damaged file is passed on.
 
 use super::error::RecordError;
+use super::limits::PIECES;
 use bytes::Bytes;
 use parquet::basic::{Compression, ConvertedType, LogicalType, TimeUnit, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -12,9 +13,6 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use std::panic::{catch_unwind, AssertUnwindSafe};
-
-/// Values that are decoded at once.
-const BATCH: usize = 1 << 13;
 
 /// A file whose columns are known and not yet read.
 pub(super) struct File {
@@ -191,7 +189,7 @@ fn all<T: DataType>(
     loop {
         levels.clear();
         values.clear();
-        let (records, _, _) = reader.read_records(BATCH, Some(&mut levels), None, &mut values)?;
+        let (records, _, _) = reader.read_records(PIECES, Some(&mut levels), None, &mut values)?;
         if records == 0 {
             return Ok(all);
         }

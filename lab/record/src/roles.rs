@@ -1,6 +1,6 @@
 //! The role of each column.
 
-use super::error::{shown, RecordError, NAME_LENGTH};
+use super::error::{listed, shown, RecordError, NAME_LENGTH};
 use super::header::{missing, require, twice, Header};
 use super::series::{self, Series};
 use super::{units, Mode, Options};
@@ -340,15 +340,5 @@ fn ignored(header: &Header, roles: &Roles) -> Option<String> {
             name => format!("`{}`", shown(name, NAME_LENGTH)),
         })
         .collect();
-    let more = unused.len().saturating_sub(24);
-    let mut list = unused
-        .iter()
-        .take(24)
-        .cloned()
-        .collect::<Vec<_>>()
-        .join(", ");
-    if more > 0 {
-        list += &format!(" and {more} more");
-    }
-    (!unused.is_empty()).then(|| format!("columns not read: {list}"))
+    (!unused.is_empty()).then(|| format!("columns not read: {}", listed(&unused)))
 }

@@ -1,93 +1,68 @@
 //! Units of known size, and their spellings.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-/// One pound-force \[N\], exactly: 0.45359237 kg under 9.80665 m/s².
-const POUND: f64 = 4.448_221_615_260_5;
-const POUND_INCH: f64 = 0.0254 * POUND;
-const POUND_FOOT: f64 = 0.3048 * POUND;
-
-/// One kilogram-force \[N\], exactly.
-const KILOPOND: f64 = 9.806_65;
-
-/// One degree \[rad\]. In German it is `Grad`; a hundredth of a right angle is `gon` there and here.
-const DEGREE: f64 = PI / 180.0;
-
-/// Units of one kind, each with its size in the first one.
-const SIZES: [&[(&str, f64)]; 7] = [
+/// Units of one kind, each size in the first one with the signs that have it. Exact are the pound
+/// of 0.453 592 37 kg and the weight of a kilogram, under 9.806 65 m/s². `Grad` is German for a
+/// degree; a hundredth of a right angle is `gon`.
+const SIZES: [&[(f64, &[&str])]; 7] = [
     &[
-        ("m", 1.0),
-        ("cm", 1e-2),
-        ("mm", 1e-3),
-        ("µm", 1e-6),
-        ("um", 1e-6),
-        ("nm", 1e-9),
-        ("in", 0.0254),
-        ("ft", 0.3048),
+        (1.0, &["m"]),
+        (1e-2, &["cm"]),
+        (1e-3, &["mm"]),
+        (1e-6, &["µm", "um"]),
+        (1e-9, &["nm"]),
+        (0.0254, &["in"]),
+        (0.3048, &["ft"]),
     ],
     &[
-        ("rad", 1.0),
-        ("mrad", 1e-3),
-        ("µrad", 1e-6),
-        ("urad", 1e-6),
-        ("deg", DEGREE),
-        ("°", DEGREE),
-        ("degree", DEGREE),
-        ("degrees", DEGREE),
-        ("Grad", DEGREE),
-        ("gon", 0.9 * DEGREE),
-        ("rev", TAU),
-        ("revs", TAU),
-        ("revolution", TAU),
-        ("revolutions", TAU),
-        ("turn", TAU),
-        ("turns", TAU),
+        (1.0, &["rad"]),
+        (1e-3, &["mrad"]),
+        (1e-6, &["µrad", "urad"]),
+        (TAU / 360.0, &["deg", "°", "degree", "degrees", "Grad"]),
+        (TAU / 400.0, &["gon"]),
+        (
+            TAU,
+            &["rev", "revs", "revolution", "revolutions", "turn", "turns"],
+        ),
     ],
     &[
-        ("N", 1.0),
-        ("kN", 1e3),
-        ("MN", 1e6),
-        ("mN", 1e-3),
-        ("µN", 1e-6),
-        ("kgf", KILOPOND),
-        ("lbf", POUND),
-        ("kip", 1e3 * POUND),
+        (1.0, &["N"]),
+        (1e3, &["kN"]),
+        (1e6, &["MN"]),
+        (1e-3, &["mN"]),
+        (1e-6, &["µN"]),
+        (9.806_65, &["kgf"]),
+        (4.448_221_615_260_5, &["lbf"]),
+        (4_448.221_615_260_5, &["kip"]),
     ],
     &[
-        ("N·m", 1.0),
-        ("Nm", 1.0),
-        ("µN·m", 1e-6),
-        ("µNm", 1e-6),
-        ("mN·m", 1e-3),
-        ("mNm", 1e-3),
-        ("kN·m", 1e3),
-        ("kNm", 1e3),
-        ("N·cm", 1e-2),
-        ("Ncm", 1e-2),
-        ("N·mm", 1e-3),
-        ("Nmm", 1e-3),
-        ("kgf·m", KILOPOND),
-        ("kgf·cm", 1e-2 * KILOPOND),
-        ("gf·cm", 1e-5 * KILOPOND),
-        ("lbf·in", POUND_INCH),
-        ("lb·in", POUND_INCH),
-        ("in·lbf", POUND_INCH),
-        ("in·lb", POUND_INCH),
-        ("lbf·ft", POUND_FOOT),
-        ("lb·ft", POUND_FOOT),
-        ("ft·lbf", POUND_FOOT),
-        ("ft·lb", POUND_FOOT),
-        ("ozf·in", POUND_INCH / 16.0),
-        ("oz·in", POUND_INCH / 16.0),
+        (1.0, &["N·m", "Nm"]),
+        (1e-6, &["µN·m", "µNm"]),
+        (1e-3, &["mN·m", "mNm", "N·mm", "Nmm"]),
+        (1e3, &["kN·m", "kNm"]),
+        (1e-2, &["N·cm", "Ncm"]),
+        (9.806_65, &["kgf·m"]),
+        (0.098_066_5, &["kgf·cm"]),
+        (9.806_65e-5, &["gf·cm"]),
+        (
+            0.0254 * 4.448_221_615_260_5,
+            &["lbf·in", "lb·in", "in·lbf", "in·lb"],
+        ),
+        (
+            0.3048 * 4.448_221_615_260_5,
+            &["lbf·ft", "lb·ft", "ft·lbf", "ft·lb"],
+        ),
+        (0.0254 * 4.448_221_615_260_5 / 16.0, &["ozf·in", "oz·in"]),
     ],
-    &[("V", 1.0), ("mV", 1e-3)],
-    &[("A", 1.0), ("mA", 1e-3)],
+    &[(1.0, &["V"]), (1e-3, &["mV"])],
+    &[(1.0, &["A"]), (1e-3, &["mA"])],
     &[
-        ("Pa", 1.0),
-        ("kPa", 1e3),
-        ("MPa", 1e6),
-        ("bar", 1e5),
-        ("psi", POUND / (0.0254 * 0.0254)),
+        (1.0, &["Pa"]),
+        (1e3, &["kPa"]),
+        (1e6, &["MPa"]),
+        (1e5, &["bar"]),
+        (4.448_221_615_260_5 / (0.0254 * 0.0254), &["psi"]),
     ],
 ];
 
@@ -213,7 +188,7 @@ fn in_other_letters(unit: &str, lower: &str) -> Option<String> {
     };
     // Of 400 to the turn there are `grad`, and 360 `Grad`.
     let mut alike = SIZES.iter().enumerate().flat_map(|(kind, all)| {
-        let own = all.iter().map(|(own, _)| *own);
+        let own = all.iter().flat_map(|(_, signs)| signs.iter().copied());
         own.filter(move |own| *own != "Grad" && own.to_lowercase() == lower)
             .map(move |own| (kind, own))
     });
@@ -270,14 +245,14 @@ fn product(unit: &str) -> Option<String> {
 pub(super) fn is_known(unit: &str) -> bool {
     SIZES
         .iter()
-        .any(|kind| kind.iter().any(|(name, _)| *name == unit))
+        .any(|kind| kind.iter().any(|(_, signs)| signs.contains(&unit)))
 }
 
 /// The factor from one unit to the other.
 pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
-    let size = |kind: &[(&str, f64)], unit: &str| {
-        let named = kind.iter().find(|(name, _)| *name == unit);
-        named.map(|(_, size)| *size)
+    let size = |kind: &[(f64, &[&str])], unit: &str| {
+        let named = kind.iter().find(|(_, signs)| signs.contains(&unit));
+        named.map(|(size, _)| *size)
     };
     let (from, to) = (written(from), written(to));
     SIZES

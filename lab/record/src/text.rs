@@ -1,17 +1,10 @@
 //! From text to rows of cells.
 
 use super::error::{shown, RecordError};
+use super::limits::PIECES;
 use super::number::Notation;
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator};
 use std::io::{Chain, Read, Take};
-
-/// A longer line [bytes] is rejected: no record has thousands of columns.
-const LINE_LIMIT: usize = 1 << 16;
-/// Maximum size [bytes] that is read for one row, even if it never ends.
-const ROW_LIMIT: usize = 2 * LINE_LIMIT;
-/// Read-ahead of the reader [bytes].
-const AHEAD: usize = 1 << 13;
-const _: () = assert!(ROW_LIMIT > LINE_LIMIT + 2 * AHEAD);
 
 /// Behind the text: the end of its last line, and one byte that only a cell
 /// with an open quote reaches.
@@ -86,7 +79,6 @@ impl<'a> Rows<'a> {
             .flexible(true)
             // With `\r` as a line end too, rows would count as one line early.
             .terminator(Terminator::Any(b'\n'))
-            .buffer_capacity(AHEAD)
             .from_reader(text.as_bytes().chain(END).take(0));
         Self {
             text,
@@ -189,7 +181,8 @@ impl<'a> Rows<'a> {
         let opens = self.opens.take();
         self.start = start;
         self.line = self.before + self.reader.position().line() as usize;
-        self.reader.get_mut().set_limit(ROW_LIMIT as u64);
+        // Of a row that never ends, the longest line and what the reader takes in ahead.
+        self.reader.get_mut().set_limit(2 * PIECES as u64);
         let outcome = self.reader.read_record(&mut self.cells);
         let length = self.reader.position().byte() as usize - start;
 
@@ -199,15 +192,15 @@ impl<'a> Rows<'a> {
             // The reader passed over it, to the next row that is not blank.
             return refuse("the line is blank, but rows follow it".to_owned());
         }
-        if line.len() > LINE_LIMIT {
+        if line.len() > PIECES {
             return refuse(format!(
-                "the line has {} bytes; at most {LINE_LIMIT} are read",
+                "the line has {} bytes; at most {PIECES} are read",
                 line.len()
             ));
         }
-        if length > LINE_LIMIT + 1 {
+        if length > PIECES + 1 {
             return refuse(format!(
-                "a quote is not closed, or not within {LINE_LIMIT} bytes"
+                "a quote is not closed, or not within {PIECES} bytes"
             ));
         }
         if length > rest.len() + 1 {
@@ -223,7 +216,7 @@ impl<'a> Rows<'a> {
                 last: self.before + self.reader.position().line() as usize - 1,
                 notation: &self.notation,
             })),
-            Err(error) => refuse(shown(&error.to_string(), LINE_LIMIT)),
+            Err(error) => refuse(shown(&error.to_string(), PIECES)),
         }
     }
 }
@@ -331,23 +324,26 @@ mod tests {
         }
     }
 
+    /// Read-ahead of the reader [bytes].
+    const AHEAD: usize = 1 << 13;
+
     #[test]
     fn a_row_that_does_not_end_is_not_taken_in() {
         for row in ["x".repeat(1 << 22), format!("\"{}", "x\n".repeat(1 << 22))] {
             let text = format!("a,b\n{row}");
             let mut rows = Rows::new(&text);
             assert!(rows.read().is_ok() && rows.read().is_err());
-            assert!(rows.cells.as_byte_record().as_slice().len() <= ROW_LIMIT + AHEAD);
+            assert!(rows.cells.as_byte_record().as_slice().len() <= 2 * PIECES + AHEAD);
         }
     }
 
     #[test]
     fn the_longest_row_is_read_at_any_place_in_the_buffer() {
         for before in [1, AHEAD - 1, AHEAD, AHEAD + 1] {
-            let (first, long) = ("x".repeat(before), "\u{e9}".repeat(LINE_LIMIT / 2));
+            let (first, long) = ("x".repeat(before), "\u{e9}".repeat(PIECES / 2));
             assert_eq!(rows(&format!("{first}\n{long}\n{first}")).len(), 3);
         }
-        let text = format!("a\n{}", "\u{e9}".repeat(LINE_LIMIT));
+        let text = format!("a\n{}", "\u{e9}".repeat(PIECES));
         let mut rows = Rows::new(&text);
         assert!(rows.read().is_ok());
         let error = rows.read().err().unwrap();

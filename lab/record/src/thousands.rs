@@ -5,9 +5,7 @@
 //! ambiguous, and therefore refused, if every comma is between one to three digits and three
 //! digits, and if the column also has whole numbers of at most three digits.
 
-use super::error::{shown, RecordError};
-
-const CELL_LENGTH: usize = 24;
+use super::error::{shown, RecordError, SHOWN};
 
 /// A cell and its line.
 type Place = (usize, String);
@@ -63,10 +61,10 @@ impl Thousands {
         let number = grouped.trim_start_matches('+');
         let message = format!(
             "`{}` may be {} or {}, next to `{}` without a comma in line {whole_line}; write thousands without a separator, or the same number of decimals in every cell",
-            shown(grouped, CELL_LENGTH),
+            shown(grouped, SHOWN),
             number.replace(',', "."),
             number.replace(',', ""),
-            shown(whole, CELL_LENGTH),
+            shown(whole, SHOWN),
         );
         Err(RecordError::at(*line, message).on(name(index)))
     }

@@ -1,6 +1,6 @@
 //! The time axis: strictly increasing seconds, or a row number over a rate.
 
-use super::error::{shown, Bad, RecordError, NAME_LENGTH};
+use super::error::{shown, Bad, RecordError, NAME_LENGTH, SHOWN};
 use super::header::Header;
 use super::source::Row;
 use super::{clock_time, segments, units, Options};
@@ -229,7 +229,7 @@ impl Clock {
             return Ok(());
         }
         let name = &header.columns[*index].name;
-        let cell = shown(cell, 24);
+        let cell = shown(cell, SHOWN);
         // Where most rows would go, what is left is another record.
         let drop = match 2 * self.repeated > self.rows {
             true => "",
@@ -262,7 +262,7 @@ impl Clock {
         let is_long = step > NO_STEP || first.abs() > NO_STAMP;
         match self
             .asked_for_a_unit(step)
-            .filter(|_| is_long && is_quick(step))
+            .filter(|_| is_long && likely_unit(step).is_some())
         {
             Some((name, asked)) => {
                 let start = match first.abs() > NO_STAMP {
@@ -290,7 +290,7 @@ impl Clock {
         else {
             return None;
         };
-        let (shown, unit) = (shown(name, NAME_LENGTH), likely_unit(step));
+        let (shown, unit) = (shown(name, NAME_LENGTH), likely_unit(step).unwrap_or("ms"));
         (!self.of_day && step >= LONG_STEP).then(|| {
             let asked = format!(
                 "states no unit and was read as seconds; its median step is {step} s: is the unit {unit}? Then set --time '{shown} [{unit}]'"
@@ -325,21 +325,11 @@ impl Clock {
     }
 }
 
-/// Units below a second, and their size.
-const SMALLER: [(&str, f64); 3] = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
-
-/// A step of a logger \[s\]: ten samples a second or more.
-const QUICK: f64 = 0.1;
-
-/// The unit in which this step would be the step of a logger, if there is one.
-fn likely_unit(step: f64) -> &'static str {
-    let is_quick = |(_, seconds): &&(&str, f64)| step * seconds <= QUICK;
-    SMALLER.iter().find(is_quick).map_or("ms", |(unit, _)| unit)
-}
-
-/// Whether this step would be the step of a logger in a unit below a second.
-fn is_quick(step: f64) -> bool {
-    SMALLER.iter().any(|(_, seconds)| step * seconds <= QUICK)
+/// The unit below a second in which this step would be the step of a logger, if there is one.
+fn likely_unit(step: f64) -> Option<&'static str> {
+    let units = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
+    let own = units.iter().find(|(_, seconds)| step * seconds < LONG_STEP);
+    own.map(|(unit, _)| *unit)
 }
 
 /// The time of day in a cell, if the first one has one; then all must have one.
@@ -354,7 +344,7 @@ fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<
         None if all && !cell.is_empty() => {
             let message = format!(
                 "`{}` is not a time of day as in the rows above",
-                shown(cell, 24)
+                shown(cell, SHOWN)
             );
             Err(RecordError::at(row.line(), message))
         }
@@ -369,7 +359,7 @@ fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
     match clock_time::expected(cell) {
         Some(expected) => error.but(format!(
             "`{}` is neither a number nor a time in a known format: {expected}",
-            shown(cell, 24)
+            shown(cell, SHOWN)
         )),
         None => error,
     }

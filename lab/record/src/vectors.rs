@@ -4,12 +4,8 @@
 //! list of names in the same place gives it, or as `data(:,2)`; or the `Data` of a structure
 //! with a `Name`, as trace exports write it.
 
-use super::error::RecordError;
-
-/// Maximum depth in structures at which vectors are searched.
-const DEEPEST: usize = 4;
-/// A matrix with more columns than this is taken as an image.
-pub(super) const MOST_COLUMNS: usize = 256;
+use super::error::{RecordError, SHOWN};
+use super::limits::{COLUMNS, DEPTH};
 
 /// A column with all that may name it.
 pub(super) struct Vector {
@@ -60,7 +56,7 @@ pub(super) fn vectors(
                 }
                 _ => format!("`{}`", name.escape_debug()),
             })
-            .take(24)
+            .take(SHOWN)
             .collect();
         let among = match names.is_empty() {
             true => String::new(),
@@ -119,7 +115,7 @@ fn fields(prefix: &str, all: &[(String, Value)], depth: usize, found: &mut Vec<V
                     matrix((name, &path), (*rows, *columns), values, all, found);
                 }
             }
-            Value::Structures(elements) if depth < DEEPEST => {
+            Value::Structures(elements) if depth < DEPTH => {
                 for (index, own) in elements.iter().enumerate() {
                     let path = match elements.len() {
                         1 => path.clone(),
@@ -144,7 +140,7 @@ fn matrix(
     found: &mut Vec<Vector>,
 ) {
     let count = rows.min(columns);
-    if !(2..=MOST_COLUMNS).contains(&count) || rows == columns {
+    if !(2..=COLUMNS).contains(&count) || rows == columns {
         return;
     }
     let mut lists = beside.iter().filter_map(|(_, value)| names(value));

@@ -6,8 +6,7 @@
 
 use super::encoding::Decoded;
 use super::error::{shown, RecordError, NAME_LENGTH};
-use super::file::LIMIT;
-use super::vectors::MOST_COLUMNS;
+use super::limits::{too_large, BYTES, COLUMNS};
 use super::{header, layout, npz, Options};
 use calamine::{DataRef, ExcelDateTime, ExcelDateTimeType, Reader, SheetType, Xlsx, XlsxError};
 use std::borrow::Cow;
@@ -40,8 +39,8 @@ pub(super) fn read(bytes: &[u8], options: &Options) -> Result<Sheet, RecordError
     let refuse =
         |why: &str| RecordError::new(format!("the workbook is damaged: {}", shown(why, 200)));
     let size = npz::unpacked_size(bytes).map_err(RecordError::new)?;
-    if size > LIMIT {
-        return Err(RecordError::new(too_large()));
+    if size > BYTES {
+        return Err(too_large(" unpacked"));
     }
     match catch_unwind(AssertUnwindSafe(|| chosen(bytes, options))) {
         Ok(Ok(sheet)) => Ok(sheet),
@@ -65,13 +64,6 @@ impl From<XlsxError> for Failure {
 
 fn refused(message: impl Into<String>) -> Failure {
     Failure::Refused(RecordError::new(message))
-}
-
-fn too_large() -> String {
-    format!(
-        "is larger than {} MiB unpacked; cut it into records",
-        LIMIT >> 20
-    )
 }
 
 fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
@@ -141,9 +133,9 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         }
         let (row, column) = cell.get_position();
         let (row, column) = (row as usize, column as usize);
-        if column >= MOST_COLUMNS {
+        if column >= COLUMNS {
             return Err(refused(format!(
-                "row {} of sheet `{}` has a cell in column {}; a sheet may have at most {MOST_COLUMNS} columns",
+                "row {} of sheet `{}` has a cell in column {}; a sheet may have at most {COLUMNS} columns",
                 row + 1,
                 shown(name, NAME_LENGTH),
                 column + 1
@@ -160,8 +152,8 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         lines.extend(std::iter::repeat_n(TAB, separators));
         lines.push_str(&value);
         counts[row] = column + 1;
-        if lines.len() as u64 > LIMIT {
-            return Err(refused(too_large()));
+        if lines.len() as u64 > BYTES {
+            return Err(Failure::Refused(too_large(" unpacked")));
         }
     }
     let width = counts.iter().copied().max().unwrap_or(0).max(1);

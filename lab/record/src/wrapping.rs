@@ -4,23 +4,8 @@
 //! within one turn, and the other signals do not respond to the jump, as they would to a sawtooth
 //! or a switched reference.
 
+use super::scale::{range, steps, times, usual, BETTER, CLEAR, FEW, LEAP, PART};
 use std::f64::consts::TAU;
-
-/// Least size of a jump, as a share of the signal's range.
-const LEAP: f64 = 0.5;
-/// Largest share of the range that the signal usually moves in one sample, up to this quantile.
-const SLOW: f64 = 0.1;
-const USUAL: f64 = 0.99;
-/// Maximum difference of a jump from a turn, in usual steps.
-const NEAR: f64 = 4.0;
-/// If the uncertainty of a turn exceeds this share of it, any length would match.
-const SHARP: f64 = 0.05;
-/// Samples on either side of a jump over which other signals are compared, and the multiple of
-/// their usual change from which they respond to it.
-const BESIDE: usize = 5;
-const ANSWERS: f64 = 3.0;
-/// Resolutions of encoders in bits.
-const BITS: std::ops::RangeInclusive<i32> = 8..=24;
 
 /// Removes the jumps from an angle; returns a note.
 pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option<String> {
@@ -39,34 +24,25 @@ pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option
         before = *value;
         *value += turns * turn;
     }
-    let times = match leaps.len() {
-        1 => "once".to_owned(),
-        count => format!("{count} times"),
-    };
     Some(format!(
-        "`{name}` wraps around at {shown} {times}: unwrapped"
+        "`{name}` wraps around at {shown} {}: unwrapped",
+        times(leaps.len())
     ))
 }
 
-/// The samples to which the signal jumps by most of its range.
+/// The samples to which the signal jumps by most of its range, and far more than it usually moves.
 fn leaps(signal: &[f64]) -> Option<Vec<usize>> {
-    let (low, high) = super::clipping::range(signal);
-    let range = high - low;
-    let mut steps: Vec<f64> = signal.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-    let leaps: Vec<usize> = (1..signal.len())
-        .filter(|&i| steps[i - 1] > LEAP * range)
-        .collect();
-    let place = (USUAL * steps.len() as f64) as usize;
-    if leaps.is_empty() || place >= steps.len() {
-        return None;
-    }
-    let usual = *steps.select_nth_unstable_by(place, f64::total_cmp).1;
-    (usual < SLOW * range).then_some(leaps)
+    let (low, high) = range(signal);
+    let sizes = || steps(signal).map(f64::abs);
+    let least = (0.5 * (high - low)).max(LEAP * usual(sizes())?);
+    let leaps = sizes().enumerate().filter(|(_, size)| *size > least);
+    let leaps: Vec<usize> = leaps.map(|(i, _)| i + 1).collect();
+    (!leaps.is_empty()).then_some(leaps)
 }
 
 /// The known turn that equals all jumps, and its name.
 fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
-    let (low, high) = super::clipping::range(signal);
+    let (low, high) = range(signal);
     let mut near = 0.0_f64;
     let mut lengths = Vec::with_capacity(leaps.len());
     for &i in leaps {
@@ -74,35 +50,35 @@ fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
         let after = signal.get(i + 1).map(|next| next - signal[i]);
         let (before, after) = (before.or(after)?, after.or(before)?);
         // A leap right behind another one is a spike.
-        if before.abs().max(after.abs()) > LEAP * (high - low) {
+        if before.abs().max(after.abs()) > 0.5 * (high - low) {
             return None;
         }
         near = near.max(before.abs()).max(after.abs());
         lengths.push((signal[i] - signal[i - 1] - 0.5 * (before + after)).abs());
     }
-    let near = NEAR * near;
-    let whole = signal.iter().all(|value| value.fract() == 0.0);
-    let counts = BITS.map(|bits| (2.0_f64.powi(bits), format!("{} counts", 1_u32 << bits)));
+    // An encoder counts to a power of two, by eight bits at least.
+    let counts = lengths.first()?.log2().round().exp2();
+    let is_whole = counts >= 256.0 && signal.iter().all(|value| value.fract() == 0.0);
+    let counts = is_whole.then(|| (counts, format!("{counts} counts")));
     let degrees = [(TAU, "2π".to_owned()), (360.0, "360".to_owned())];
-    let known = degrees.into_iter().chain(counts.filter(|_| whole));
-    known.into_iter().find(|(turn, _)| {
-        let near = near.max(1e-3 * turn).min(SHARP * turn);
+    degrees.into_iter().chain(counts).find(|(turn, _)| {
+        // If a turn were less certain, any length would match.
+        let near = (CLEAR * near).max(1e-3 * turn).min(PART * turn);
         high - low <= turn + near && lengths.iter().all(|length| (length - turn).abs() <= near)
     })
 }
 
 /// Whether a signal changes more around the jumps than elsewhere.
 fn answers(other: &[f64], leaps: &[usize]) -> bool {
-    let change =
-        |i: usize| Some((other.get(i + BESIDE)? - other[i.checked_sub(BESIDE + 1)?]).abs());
+    let change = |i: usize| Some((other.get(i + FEW)? - other[i.checked_sub(FEW + 1)?]).abs());
     let mean = |all: &mut dyn Iterator<Item = f64>| {
         let (mut sum, mut count) = (0.0, 0.0_f64);
         all.for_each(|own| (sum, count) = (sum + own, count + 1.0));
         sum / count.max(1.0)
     };
     let there = mean(&mut leaps.iter().filter_map(|&i| change(i)));
-    let usual = mean(&mut (0..other.len()).filter_map(change));
-    there > ANSWERS * usual
+    let elsewhere = mean(&mut (0..other.len()).filter_map(change));
+    there > BETTER * elsewhere
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod habits;
+mod rates;
 mod spikes;
 
 use bowden_lab::conclude::final_fit::FinalFit;

@@ -5,23 +5,12 @@
 //! (q/√12) is a significant share of the signal. A commanded staircase looks the same, but the
 //! other end responds to each of its steps; with a coarse sensor the other end moves evenly.
 
-use super::super::clipping::range;
 use super::companion::Companion;
 use super::Found;
-use std::ops::Range;
+use crate::scale::{range, runs, spread, BETTER, FRACTION, PART};
 
-/// Share of the signal's spread from which the error of the steps is reported.
-const TOLD: f64 = 0.02;
-/// Share from which it invalidates the conclusion.
-const GRAVE: f64 = 0.05;
 /// A comb with more teeth than this is fine enough for any signal.
 const MOST_LEVELS: usize = 1000;
-/// A switch has two or three levels and is meant to.
-const FEWEST_LEVELS: usize = 4;
-/// Share of neighbours that are the same.
-const SAME: f64 = 0.5;
-/// Maximum ratio of the other end's travel at the start of a plateau to that at its end.
-const ANSWERS: f64 = 2.0;
 
 /// The steps of a sensor that has few of them over its used range.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,11 +35,8 @@ impl Steps {
 
 pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
     let (step, levels) = comb(signal)?;
-    let count = signal.len() as f64;
-    let mean = signal.iter().sum::<f64>() / count;
-    let spread = (signal.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
-    let share = step / 12.0_f64.sqrt() / spread;
-    if share.is_nan() || share < TOLD || !shapes(signal, other) {
+    let share = step / 12.0_f64.sqrt() / spread(signal);
+    if share.is_nan() || share < FRACTION || !shapes(signal, other) {
         return None;
     }
     Some(Found {
@@ -58,8 +44,7 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
             "coarse: steps of {step} over {levels} levels, an error of {:.1} % of the signal's spread; choose a finer sensor or range",
             100.0 * share
         ),
-        grave: share > GRAVE,
-        most: 1.0,
+        grave: share > PART,
         samples: std::iter::once(0..signal.len()).collect(),
     })
 }
@@ -67,8 +52,8 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
 /// Whether the steps of a comb shape its signal: most neighbouring values are equal, and the other
 /// end does not respond to the steps.
 fn shapes(signal: &[f64], other: &Companion) -> bool {
-    let same = signal.windows(2).filter(|pair| pair[0] == pair[1]).count() as f64;
-    same >= SAME * signal.len() as f64 && !is_commanded(signal, other)
+    let same = signal.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    2 * same >= signal.len() && !is_commanded(signal, other)
 }
 
 /// A signal with a line through the edges of its steps; at a reversal the line reaches the level.
@@ -119,24 +104,13 @@ fn comb(signal: &[f64]) -> Option<(f64, usize)> {
     let gaps: Vec<f64> = levels.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let step = gaps.iter().copied().fold(f64::INFINITY, f64::min);
     let whole = |gap: &f64| (gap / step - (gap / step).round()).abs() < 0.05;
-    (levels.len() >= FEWEST_LEVELS && step > 0.0 && gaps.iter().all(whole))
-        .then_some((step, levels.len()))
+    // A switch has two or three levels and is meant to.
+    (levels.len() > 3 && step > 0.0 && gaps.iter().all(whole)).then_some((step, levels.len()))
 }
 
 /// Whether the other end responds to the steps.
 fn is_commanded(signal: &[f64], other: &Companion) -> bool {
-    let (mut first, mut last) = (0.0, 0.0);
-    let mut start = 0;
-    let mut plateau = |stretch: Range<usize>| {
-        let (a, b) = other.ends(&stretch);
-        first += a;
-        last += b;
-    };
-    for i in 1..signal.len() {
-        if signal[i] != signal[i - 1] {
-            plateau(start..i);
-            start = i;
-        }
-    }
-    first > ANSWERS * last
+    let ends = runs(signal).map(|plateau| other.ends(&plateau));
+    let (first, last) = ends.fold((0.0, 0.0), |(first, last), (a, b)| (first + a, last + b));
+    first > BETTER * last
 }

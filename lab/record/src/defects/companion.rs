@@ -1,14 +1,9 @@
 //! Whether another signal moves while one is constant.
 
+use crate::scale::{CLEAR, FEW};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
-
-/// Number of parts of a stretch; the outer parts are left out, because the response to an earlier
-/// command may still settle there.
-const PARTS: usize = 5;
-/// Least movement, in multiples of the noise.
-const CLEAR: f64 = 5.0;
 
 /// Another signal of the record: the size of its movement, compared with its noise.
 pub(super) struct Companion {
@@ -35,7 +30,8 @@ impl Companion {
         }
     }
 
-    fn mean(&self, from: usize, length: usize) -> f64 {
+    /// The mean over so many samples, less the first one.
+    pub(super) fn mean(&self, from: usize, length: usize) -> f64 {
         (self.sums[from + length] - self.sums[from]) / length as f64
     }
 
@@ -52,18 +48,22 @@ impl Companion {
         usual
     }
 
-    /// Whether it moves in the middle of the stretch, at this share of its usual speed.
+    /// Its means over the fifths of a stretch, and their noise.
+    pub(super) fn parts(&self, stretch: &Range<usize>) -> ([f64; FEW], f64) {
+        let border = |part: usize| stretch.start + part * stretch.len() / FEW;
+        let mean = |part: usize| self.mean(border(part), border(part + 1) - border(part));
+        let noise = self.noise / (stretch.len() as f64 / FEW as f64).sqrt();
+        (std::array::from_fn(mean), noise)
+    }
+
+    /// Whether it moves in the middle of the stretch, at this share of its usual speed. The first and
+    /// the last fifth are left out: the response to an earlier command may still settle there.
     pub(super) fn moves(&self, stretch: &Range<usize>, share: f64) -> bool {
-        let length = stretch.len() / PARTS;
-        if length == 0 {
-            return false;
-        }
-        let mean = |part: usize| self.mean(stretch.start + part * length, length);
-        let first = (mean(2) - mean(1)).abs();
-        let second = (mean(3) - mean(2)).abs();
+        let (means, noise) = self.parts(stretch);
+        let [first, second] = [means[2] - means[1], means[3] - means[2]].map(f64::abs);
         let moved = first + second;
-        let noise = self.noise / (length as f64).sqrt();
-        first.min(second) > 0.0 && moved > CLEAR * noise && 0.5 * moved > share * self.usual(length)
+        let usual = self.usual(stretch.len() / FEW);
+        first.min(second) > 0.0 && moved > CLEAR * noise && 0.5 * moved > share * usual
     }
 
     /// Its travel in the first and in the last third of the stretch.

@@ -5,20 +5,10 @@
 //! either the stamps or the row numbers predict a sample better from its neighbours.
 
 use super::Found;
+use crate::scale::{spread, BETTER, FRACTION, MANY, TRACE};
 use crate::time::median_step;
 use crate::Column;
 use std::ops::Range;
-
-/// Rows to either side over which the stamps are compared with even ones.
-const REACH: usize = 25;
-/// Least advantage of even rows in prediction (ratio of squared errors).
-const BETTER: f64 = 2.0;
-/// Error of a signal due to the stamps, as a share of its spread, from which it is reported.
-const TOLD: f64 = 0.003;
-/// Share from which it invalidates conclusions that depend on time.
-const GRAVE: f64 = 0.01;
-/// Shifts that are shown, in steps, and how near two of them are one stretch.
-const SHOWN: f64 = 0.1;
 
 pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
     let step = median_step(time);
@@ -29,7 +19,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
         .filter(|signal| rows_predict(time, signal, step))
         .map(|signal| error(&shifts, signal))
         .fold(0.0, f64::max);
-    if error < TOLD {
+    if error < TRACE {
         return None;
     }
     let known: Vec<f64> = shifts.iter().flatten().copied().collect();
@@ -40,19 +30,18 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
             100.0 * rms,
             100.0 * error
         ),
-        grave: error > GRAVE,
-        most: 1.0,
-        samples: stretches(&shifts),
+        grave: error > FRACTION,
+        samples: stretches(&shifts, 0.5 * rms),
     })
 }
 
 /// Deviation of each stamp from the even ones around it, in steps; `None` near a gap.
 fn shifts(time: &[f64], step: f64) -> Vec<Option<f64>> {
     let at = |i: usize| -> Option<f64> {
-        let from = i.checked_sub(REACH)?;
-        let around = time.get(from..=i + REACH)?;
+        let from = i.checked_sub(MANY)?;
+        let around = time.get(from..=i + MANY)?;
         let span = around.last()? - around.first()?;
-        let rows = 2.0 * REACH as f64;
+        let rows = 2.0 * MANY as f64;
         // A row more or less over the window is a gap, not jitter.
         if (span / step - rows).abs() > 0.1 * rows {
             return None;
@@ -79,9 +68,6 @@ fn rows_predict(time: &[f64], signal: &[f64], step: f64) -> bool {
 
 /// RMS error of the signal due to the shifts, as a share of its spread.
 fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
-    let count = signal.len() as f64;
-    let mean = signal.iter().sum::<f64>() / count;
-    let spread = signal.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count;
     let (mut sum, mut known) = (0.0, 0.0_f64);
     for (i, shift) in shifts.iter().enumerate().skip(2) {
         if let (Some(shift), Some(next)) = (shift, signal.get(i + 2)) {
@@ -89,18 +75,18 @@ fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
             known += 1.0;
         }
     }
-    (sum / known.max(1.0) / spread).sqrt()
+    (sum / known.max(1.0)).sqrt() / spread(signal)
 }
 
-/// The stretches in which the stamps are wrong.
-fn stretches(shifts: &[Option<f64>]) -> Vec<Range<usize>> {
+/// The stretches in which the stamps are wrong by so many steps.
+fn stretches(shifts: &[Option<f64>], least: f64) -> Vec<Range<usize>> {
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (i, shift) in shifts.iter().enumerate() {
-        if shift.is_none_or(|s| s.abs() < SHOWN) {
+        if shift.is_none_or(|s| s.abs() < least) {
             continue;
         }
         match stretches.last_mut() {
-            Some(last) if i - last.end <= REACH => last.end = i + 1,
+            Some(last) if i - last.end <= MANY => last.end = i + 1,
             _ => stretches.push(i..i + 1),
         }
     }

@@ -7,6 +7,7 @@
 //! replaces spikes. A defect is *grave* if the conclusion is invalid nevertheless. What is normal
 //! for any sensor (noise, a converter's usual steps, a reference at rest) is not a defect.
 
+mod clipping;
 mod coarse;
 mod companion;
 mod gaps;
@@ -15,7 +16,9 @@ mod spikes;
 mod stuck;
 
 use super::rows::Table;
-use super::{clipping, Column, Record};
+use super::scale::{FRACTION, MISSING, PART};
+use super::{Column, Record};
+pub(super) use clipping::heavy;
 pub use coarse::Steps;
 use companion::Companion;
 use serde::Serialize;
@@ -78,14 +81,6 @@ pub struct Defect {
     pub samples: Vec<Range<usize>>,
 }
 
-/// Share of the record that a channel's defects may take out of the fit.
-const MOST_OF_A_CHANNEL: f64 = 0.1;
-
-/// Share of samples without a measurement from which a conclusion is invalid. They are left out,
-/// but unmeasured motion of the input still acts through the hysteresis.
-const GRAVE: f64 = 0.05;
-const GRAVE_INPUT: f64 = 0.01;
-
 /// The data for the detectors.
 pub(super) struct Measured<'a> {
     pub(super) table: &'a Table,
@@ -105,8 +100,8 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
         let time = &measured.table.time;
         let jitter = jitter::find(time, &measured.columns);
         let gaps = gaps::find(time);
-        all.extend(jitter.map(|found| found.named(DefectKind::Jitter, clock, lines)));
-        all.extend(gaps.map(|found| found.named(DefectKind::Gap, clock, lines)));
+        all.extend(jitter.map(|found| found.named(DefectKind::Jitter, clock, lines, 1.0)));
+        all.extend(gaps.map(|found| found.named(DefectKind::Gap, clock, lines, 1.0)));
     }
     let [input, output, ..] = measured.columns.as_slice() else {
         return all;
@@ -114,11 +109,11 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
     let leaps = [Leaps::of(&input.values), Leaps::of(&output.values)];
     let spikes: Vec<Option<Found>> = (0..measured.columns.len())
         .map(|index| match index {
-            0 => leaps[0].spikes(&[&leaps[1]], GRAVE_INPUT),
-            1 => leaps[1].spikes(&[&leaps[0]], GRAVE),
+            0 => leaps[0].spikes(&[&leaps[1]], FRACTION),
+            1 => leaps[1].spikes(&[&leaps[0]], PART),
             _ => {
                 let own = Leaps::of(&measured.columns[index].values);
-                own.spikes(&[&leaps[0], &leaps[1]], GRAVE)
+                own.spikes(&[&leaps[0], &leaps[1]], PART)
             }
         })
         .collect();
@@ -129,13 +124,13 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
     let calm: Vec<Cow<[f64]>> = measured.columns.iter().zip(&spikes).map(calm).collect();
     let (at_input, at_output) = (Companion::new(&calm[0]), Companion::new(&calm[1]));
     for (index, (column, spikes)) in measured.columns.iter().zip(spikes).enumerate() {
-        let (others, other) = match index {
-            0 => (vec![&at_output], &calm[1]),
-            1 => (vec![&at_input], &calm[0]),
-            _ => (vec![&at_input, &at_output], &calm[0]),
+        let others = match index {
+            0 => vec![&at_output],
+            1 => vec![&at_input],
+            _ => vec![&at_input, &at_output],
         };
         let values = &calm[index];
-        let few = if index == 0 { GRAVE_INPUT } else { GRAVE };
+        let few = if index == 0 { FRACTION } else { PART };
         let parts = index.checked_sub(2).and_then(|i| measured.parts.get(i));
         let parts = parts.map_or(&[][..], Vec::as_slice);
         let stuck = stuck((column, values), parts, &others, few);
@@ -144,13 +139,13 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
             stuck.any(|s| s.start < plateau.end && plateau.start < s.end)
         };
         let clipped = match index {
-            0 | 1 => clipped(values, other, few, spoilt),
+            0 | 1 => clipping::find(values, others[0], few, spoilt),
             _ => None,
         };
         let coarse = coarse::find(values, others[0]);
-        let most = if index < 2 { 1.0 } else { MOST_OF_A_CHANNEL };
+        let most = if index < 2 { 1.0 } else { MISSING };
         let named = |kind, found: Option<Found>| {
-            found.map(|found| Found { most, ..found }.named(kind, &column.name, lines))
+            found.map(|found| found.named(kind, &column.name, lines, most))
         };
         let clipped = named(DefectKind::Clipping, clipped);
         let stuck = stuck.into_iter().map(Some);
@@ -213,17 +208,16 @@ struct Found {
     samples: Vec<Range<usize>>,
     message: String,
     grave: bool,
-    /// Share of the record that may be left out for it.
-    most: f64,
 }
 
 impl Found {
-    fn named(self, kind: DefectKind, column: &str, lines: &[usize]) -> Defect {
+    /// `most` is the share of the record that may be left out for it.
+    fn named(self, kind: DefectKind, column: &str, lines: &[usize], most: f64) -> Defect {
         let line = |sample: usize| lines.get(sample).copied().unwrap_or(sample + 2);
         let range = |s: &Range<usize>| [line(s.start), line(s.end.max(s.start + 1) - 1)];
         let blind = matches!(kind, DefectKind::Clipping | DefectKind::Stuck);
         Defect {
-            left_out: blind && share(&self.samples, lines.len()) <= self.most,
+            left_out: blind && share(&self.samples, lines.len()) <= most,
             kind,
             channel: column.to_owned(),
             ranges: self.samples.iter().map(range).collect(),
@@ -254,46 +248,6 @@ fn stuck(
     named.filter_map(found).collect()
 }
 
-/// Clipping that is not severe enough to reject the record.
-fn clipped(
-    signal: &[f64],
-    other: &[f64],
-    few: f64,
-    spoilt: impl Fn(&Range<usize>) -> bool,
-) -> Option<Found> {
-    let mut samples: Vec<Range<usize>> = Vec::new();
-    let mut levels = Vec::new();
-    for clipped in clipping::ends(signal, other) {
-        let own = clipped.plateaus.into_iter().filter(|p| !spoilt(p));
-        let before = samples.len();
-        samples.extend(own);
-        if samples.len() > before {
-            levels.push(clipped.level.to_string());
-        }
-    }
-    samples.sort_by_key(|plateau| plateau.start);
-    let share = share(&samples, signal.len());
-    (!samples.is_empty()).then(|| Found {
-        message: format!(
-            "clipped: flat at {} {}, {:.2} % of the samples; use a sensor with a wider range",
-            levels.join(" and "),
-            times(samples.len()),
-            100.0 * share
-        ),
-        grave: share > few,
-        most: 1.0,
-        samples,
-    })
-}
-
 fn share(samples: &[Range<usize>], of: usize) -> f64 {
     samples.iter().map(ExactSizeIterator::len).sum::<usize>() as f64 / of.max(1) as f64
-}
-
-/// "once", "3 times".
-fn times(count: usize) -> String {
-    match count {
-        1 => "once".to_owned(),
-        _ => format!("{count} times"),
-    }
 }

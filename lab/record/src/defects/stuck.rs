@@ -7,38 +7,25 @@
 //! signal is flat by nature.
 
 use super::companion::Companion;
-use super::{share, times, Found};
+use super::{share, Found};
+use crate::scale::{
+    is_noisy, range, runs, times, usual, CHANCE, ENOUGH, FEW, FRACTION, LEAP, MANY,
+};
 use std::ops::Range;
 
-/// Shortest run that is considered [samples].
-const SHORTEST: usize = 20;
-/// Share of their usual speed at which other signals must move, both if the noise is gone and if
-/// only a jump shows the defect: a reference may rest while its rig settles.
-const CREEPING: f64 = 0.02;
+/// Share of their usual speed at which others have to move where only a leap tells: a reference may
+/// well rest while its rig settles.
 const MOVING: f64 = 0.3;
-/// A jump is at least this multiple of the largest usual step.
-const LEAP: f64 = 3.0;
-/// Steps are usual up to this quantile.
-const USUAL: f64 = 0.995;
-/// Minimum number of steps that determine the usual step.
-const FEW_STEPS: usize = 40;
-/// Share of turns among the steps from which a signal carries noise.
-const TURNS: f64 = 0.1;
-/// Chance of a run by noise alone, below which it is none.
-const CHANCE: f64 = 1e-9;
-/// Share of the record above which flat runs are normal for the signal.
-const NATURE: f64 = 0.5;
-/// A run up to the end of the record is at least this multiple of any other run.
-const DEAD_END: usize = 5;
 
 pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Found> {
-    let runs = runs(signal);
+    let runs: Vec<Range<usize>> = runs(signal).collect();
     let suspects: Vec<Range<usize>> = runs
         .iter()
-        .filter(|run| run.len() >= SHORTEST && others.iter().any(|o| o.moves(run, CREEPING)))
+        .filter(|run| run.len() >= MANY && others.iter().any(|o| o.moves(run, FRACTION)))
         .cloned()
         .collect();
-    if suspects.is_empty() || share(&suspects, signal.len()) > NATURE {
+    // A signal that is mostly flat is flat by nature.
+    if suspects.is_empty() || share(&suspects, signal.len()) > 0.5 {
         return None;
     }
     let judge = Judge::new(signal, others, &runs, &suspects);
@@ -55,22 +42,8 @@ pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Fo
             100.0 * share
         ),
         grave: share > few,
-        most: 1.0,
         samples,
     })
-}
-
-/// All stretches of equal values.
-fn runs(signal: &[f64]) -> Vec<Range<usize>> {
-    let mut runs = Vec::new();
-    let mut start = 0;
-    for i in 1..=signal.len() {
-        if i == signal.len() || signal[i] != signal[start] {
-            runs.push(start..i);
-            start = i;
-        }
-    }
-    runs
 }
 
 struct Judge<'a> {
@@ -101,28 +74,22 @@ impl<'a> Judge<'a> {
         };
         let inside: Vec<usize> = (1..signal.len()).filter(|&i| !suspect(i)).collect();
         let steps: Vec<f64> = inside.iter().map(|&i| signal[i] - signal[i - 1]).collect();
-        let mut moving: Vec<f64> = steps.iter().copied().filter(|step| *step != 0.0).collect();
-        let turns = moving.windows(2).filter(|w| w[0] * w[1] < 0.0).count();
-        let noisy = turns as f64 > TURNS * moving.len() as f64;
+        let moving: Vec<f64> = steps.iter().copied().filter(|step| *step != 0.0).collect();
         // Thrice as often the same as seen: the noise may be smaller where the signal rests.
         let same = 1.0 - moving.len() as f64 / steps.len().max(1) as f64 / 3.0;
         let by_noise = (CHANCE / signal.len() as f64).ln() / same.ln();
-        moving.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let usual = moving
-            .get((USUAL * moving.len() as f64) as usize)
-            .map(|s| s.abs());
         let is_suspect = |run: &&Range<usize>| {
             let found = suspects.binary_search_by_key(&run.start, |suspect| suspect.start);
             found.is_ok()
         };
         let innocent = runs.iter().filter(|run| !is_suspect(run));
         let innocent = innocent.map(ExactSizeIterator::len);
-        let (low, high) = crate::clipping::range(signal);
+        let (low, high) = range(signal);
         Self {
             signal,
             others,
-            usual: usual.filter(|_| moving.len() >= FEW_STEPS),
-            by_noise: noisy.then_some(by_noise),
+            usual: usual(moving.iter().map(|step| step.abs())).filter(|_| moving.len() >= ENOUGH),
+            by_noise: is_noisy(&moving).then_some(by_noise),
             innocent: innocent.max().unwrap_or(0),
             low,
             high,
@@ -144,8 +111,7 @@ impl<'a> Judge<'a> {
         let silent = self
             .by_noise
             .is_some_and(|longest| run.len() as f64 > longest);
-        let dead =
-            run.end == self.signal.len() && run.len() > DEAD_END * self.innocent.max(SHORTEST);
+        let dead = run.end == self.signal.len() && run.len() > FEW * self.innocent.max(MANY);
         let moving = || self.others.iter().any(|other| other.moves(run, MOVING));
         silent || ((self.leaps(run.end) || dead) && moving())
     }

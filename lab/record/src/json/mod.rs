@@ -8,6 +8,7 @@
 mod value;
 
 use super::error::{shown, RecordError, NAME_LENGTH};
+use super::limits::PIECES;
 use super::MIN_SAMPLES;
 use std::collections::HashMap;
 use value::{values, without_nan, Cell, Json};
@@ -319,7 +320,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             own.push(cell);
         }
         // Names that change from record to record name no columns.
-        if table.columns.len() > MIN_SAMPLES * MIN_SAMPLES {
+        if table.columns.len() > PIECES {
             let message = "the records so far have too many different names for a table";
             return Err(RecordError::at(row + 1, message));
         }

@@ -4,16 +4,10 @@
 //! and data elements: a type, a length, the bytes. An element may be compressed; a matrix holds
 //! elements itself. Every length is checked against the number of bytes.
 
+use crate::limits::{BYTES, DEPTH};
 use crate::vectors::Value;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
-
-/// The header of the file \[bytes\].
-pub(super) const HEADER: usize = 128;
-/// Most that all compressed elements of a file are unpacked to \[bytes\].
-const LIMIT: u64 = 1 << 31;
-/// Matrices in cells in structures in …: no record needs more.
-const DEEPEST: usize = 6;
 
 /// Why the bytes are no MAT-file.
 type Damage = String;
@@ -51,14 +45,17 @@ struct Element<'a> {
     bytes: &'a [u8],
 }
 
+impl Element<'_> {
+    fn is_matrix(&self) -> bool {
+        self.kind == 14
+    }
+}
+
 /// The elements one after the other.
 struct Elements<'a> {
     rest: &'a [u8],
     order: Order,
 }
-
-const MATRIX: u32 = 14;
-const COMPRESSED: u32 = 15;
 
 impl<'a> Elements<'a> {
     fn next(&mut self) -> Result<Option<Element<'a>>, Damage> {
@@ -80,7 +77,8 @@ impl<'a> Elements<'a> {
         let bytes = behind.get(..length);
         let bytes = bytes.ok_or_else(|| damaged("it ends in the middle of an element"))?;
         let padded = match word {
-            COMPRESSED => length,
+            // A compressed element.
+            15 => length,
             _ => length.next_multiple_of(8),
         };
         self.rest = behind.get(padded..).unwrap_or_default();
@@ -95,19 +93,18 @@ impl<'a> Elements<'a> {
 
 /// The variables of a file, in its order.
 pub(super) fn variables(file: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
+    let (header, rest) = file.split_at(file.len().min(128));
     let order = Order {
-        little: file.get(126..HEADER) == Some(b"IM"),
+        little: header.ends_with(b"IM"),
     };
-    let mut elements = Elements {
-        rest: file.get(HEADER..).unwrap_or_default(),
-        order,
-    };
+    let mut elements = Elements { rest, order };
     let mut variables = Vec::new();
-    let mut room = LIMIT;
+    let mut room = BYTES;
     while let Some(element) = elements.next()? {
         let unpacked;
         let element = match element.kind {
-            COMPRESSED => {
+            // A compressed element.
+            15 => {
                 unpacked = unpack(element.bytes, &mut room)?;
                 let rest = unpacked.as_slice();
                 match (Elements { rest, order }).next()? {
@@ -117,7 +114,7 @@ pub(super) fn variables(file: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
             }
             _ => element,
         };
-        if element.kind == MATRIX {
+        if element.is_matrix() {
             variables.push(matrix(element.bytes, order, 0)?);
         }
     }
@@ -134,7 +131,7 @@ fn unpack(bytes: &[u8], room: &mut u64) -> Result<Vec<u8>, Damage> {
     let length = unpacked.len() as u64;
     *room = room
         .checked_sub(length)
-        .ok_or_else(|| format!("is larger than {} MiB unpacked", LIMIT >> 20))?;
+        .ok_or_else(|| format!("is larger than {} MiB unpacked", BYTES >> 20))?;
     Ok(unpacked)
 }
 
@@ -145,7 +142,7 @@ fn matrix(bytes: &[u8], order: Order, depth: usize) -> Result<(String, Value), D
     let Some(flags) = parts.next()? else {
         return Ok((String::new(), Value::Other));
     };
-    if depth > DEEPEST {
+    if depth > DEPTH {
         return Ok((String::new(), Value::Other));
     }
     let flags = order.u32(flags.bytes);
@@ -198,9 +195,9 @@ fn nested(
     let mut all = Vec::new();
     for _ in 0..count {
         let own = parts.expect("cell or field")?;
-        all.push(match own.kind {
-            MATRIX => matrix(own.bytes, parts.order, depth + 1)?,
-            _ => (String::new(), Value::Other),
+        all.push(match own.is_matrix() {
+            true => matrix(own.bytes, parts.order, depth + 1)?,
+            false => (String::new(), Value::Other),
         });
     }
     Ok(all)

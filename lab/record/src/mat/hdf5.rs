@@ -9,6 +9,7 @@
 //! on MATLAB's attributes. The bytes are read by the crate `hdf5-reader`.
 
 use super::elements::rows_of;
+use crate::limits::{BYTES, DEPTH, PIECES};
 use crate::vectors::Value;
 use hdf5_reader::error::Error;
 use hdf5_reader::group::Group;
@@ -16,17 +17,9 @@ use hdf5_reader::reference::read_object_references;
 use hdf5_reader::{Dataset, Datatype, Hdf5File, OpenOptions};
 use std::collections::HashMap;
 
-/// Most that all arrays of a file are unpacked to \[bytes\].
-const LIMIT: usize = 1 << 31;
 /// Maximum size to which a byte of the file is unpacked \[bytes\]: deflate packs no more into one
 /// byte. A file that states larger arrays cannot contain their data.
 const PACKED: usize = 1032;
-/// Most that one piece of a compressed array is unpacked to \[bytes\].
-const CHUNK: usize = 1 << 28;
-/// Structures in cells in structures in …: no record needs more.
-const DEEPEST: usize = 6;
-/// Variables, fields and cells of a file: no record needs more.
-const MOST: usize = 1 << 16;
 /// MATLAB's internal groups: the targets of references, and its objects.
 const REFERRED: &str = "#refs#";
 
@@ -53,16 +46,17 @@ pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, String> {
         format!("the file is damaged or has unsupported content: {what}; save it in MATLAB with `save -v7`")
     };
     let options = OpenOptions::default()
-        .with_max_read_bytes(LIMIT)
-        .with_max_chunk_bytes(CHUNK);
+        .with_max_read_bytes(BYTES as usize)
+        // One piece of a compressed array, besides the array itself.
+        .with_max_chunk_bytes(BYTES as usize / 8);
     let file = Hdf5File::from_bytes_with_options(bytes, options).map_err(told)?;
     let root = file.root_group().map_err(told)?;
     let mut own = File {
         referred: HashMap::new(),
         offset_size: file.superblock().offset_size,
-        room: LIMIT,
+        room: BYTES as usize,
         packed: bytes.len().saturating_mul(PACKED),
-        left: MOST,
+        left: PIECES,
     };
     let (groups, data) = root.members().map_err(told)?;
     if let Some(group) = groups.iter().find(|group| group.name() == REFERRED) {
@@ -97,7 +91,8 @@ impl File {
     /// Counts an object; an error if there are too many.
     fn counted(&mut self) -> Result<(), Error> {
         let left = self.left.checked_sub(1);
-        let many = || Error::ResourceLimit(format!("more than {MOST} variables, fields and cells"));
+        let many =
+            || Error::ResourceLimit(format!("more than {PIECES} variables, fields and cells"));
         self.left = left.ok_or_else(many)?;
         Ok(())
     }
@@ -109,7 +104,7 @@ impl File {
         let class = class.and_then(|own| own.read_string().ok());
         // A sparse matrix is a group as well; objects and functions are of other classes.
         let is_sparse = group.attribute("MATLAB_sparse").is_ok();
-        if depth >= DEEPEST || is_sparse {
+        if depth >= DEPTH || is_sparse {
             return Ok(Value::Other);
         }
         if let Some(class) = class.filter(|class| class != "struct") {
@@ -147,7 +142,7 @@ impl File {
             self.counted()?;
             // Taken out while it is read: what refers to itself ends here.
             all.push(match self.referred.remove(&address) {
-                Some(object) if depth < DEEPEST => {
+                Some(object) if depth < DEPTH => {
                     let value = match &object {
                         Object::Group(group) => self.structure(group, depth + 1)?,
                         Object::Data(data) => self.value(data, depth + 1)?,
@@ -166,7 +161,7 @@ impl File {
         let count = usize::try_from(data.num_elements()?).unwrap_or(usize::MAX);
         let stored = count.saturating_mul(data.raw_element_size()?);
         let held = count.saturating_mul(size_of::<f64>());
-        let large = || Error::ResourceLimit(format!("more than {} MiB unpacked", LIMIT >> 20));
+        let large = || Error::ResourceLimit(format!("more than {} MiB unpacked", BYTES >> 20));
         self.room = self.room.checked_sub(held.max(stored)).ok_or_else(large)?;
         let empty = || Error::InvalidData("an array larger than the file".to_owned());
         self.packed = self.packed.checked_sub(stored).ok_or_else(empty)?;
