@@ -67,7 +67,7 @@ const CONSTANTS: [(&str, usize); 18] = [
     ("record", 33),
     ("rig", 5),
     ("synth", 10),
-    ("trials", 48),
+    ("trials", 25),
 ];
 
 /// The folder of a package of the lab.

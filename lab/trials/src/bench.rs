@@ -5,12 +5,12 @@
 //! alone. Nobody controls anything. The record is written as CSV and read like any user's record,
 //! by the same reader and the same search.
 
-use super::feed::{FeedForward, Surroundings, MOST_TERMS};
-use super::trial::MOST_UNDECLARED;
+use super::feed::{FeedForward, Surroundings};
+use super::trial::{MOST_UNDECLARED, RATE};
 use bowden::control::BenchRange;
 use bowden::effect::Motion;
 use bowden::model::{Source, Term};
-use bowden_lab::export::ModelFile;
+use bowden_lab::export::{ModelFile, MOST_TERMS};
 use bowden_lab::fit::Solution;
 use bowden_lab::ledger::Ledger;
 use bowden_lab::model::declared::structure;
@@ -22,12 +22,6 @@ use bowden_rig::{Noise, Rig, RigConfig};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-
-/// Length of the record \[s\].
-pub const SECONDS: f64 = 90.0;
-
-/// Sampling of the record \[s\].
-const STEP: f64 = 1e-3;
 
 /// Cut-off of the one filter \[Hz\]: above every tone, below the sensors' noise.
 const CUTOFF: f64 = 8.0;
@@ -103,8 +97,10 @@ pub fn record(
     let mut state = rig.start(seed);
     let mut csv = String::from("t [s],tau_i [N·m],tau_o [N·m],phi_p [rad],phi_d [rad]\n");
     let mut all = String::from("t [s],tau_i [N·m],tau_o [N·m],out [N·m],phi_p [rad],phi_d [rad],command [N·m],hand [N·m]\n");
-    for k in 0..(SECONDS / STEP) as usize {
-        let t = k as f64 * STEP;
+    let step = 1.0 / RATE;
+    // Ninety seconds.
+    for k in 0..(90.0 * RATE) as usize {
+        let t = k as f64 * step;
         let (command, load) = (drive.at(t), hand.at(t));
         let now = state.sample();
         let (p, d) = (now.proximal.position, now.distal.position);
@@ -114,7 +110,7 @@ pub fn record(
             all,
             "{t:.4},{i:.6},{o:.6},{o:.6},{p:.8},{d:.8},{command:.6},{load:.6}"
         );
-        if rig.step_with_load(&mut state, command, load, STEP).diverged {
+        if rig.step_with_load(&mut state, command, load, step).diverged {
             return Err("the rig diverged on the bench".to_owned());
         }
     }

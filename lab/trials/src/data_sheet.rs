@@ -6,10 +6,7 @@ use bowden::Error;
 use bowden_rig::RigConfig;
 use std::f64::consts::TAU;
 
-/// Longest step that counts \[s\].
-const LONGEST_DT: f64 = 0.1;
-
-/// Time from a command to its torque \[s\].
+/// How long a command takes to become torque \[s\].
 #[must_use]
 pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
     f64::from(rig.delay) / rate + rig.drive_lag
@@ -69,6 +66,7 @@ pub fn observer(
         gains.damping_ratio.unwrap_or(own.damping_ratio()),
     )?;
     let time_constant = (TAU * gains.frequency).recip();
-    DisturbanceObserver::try_new(plant, time_constant, gains.limit, LONGEST_DT)?
+    let longest_dt = 0.1;
+    DisturbanceObserver::try_new(plant, time_constant, gains.limit, longest_dt)?
         .with_latency(shown(rig, rate))
 }

@@ -8,7 +8,7 @@ use super::lineup::{declared_feed, lineup};
 use super::own_rig;
 use super::setup::Setup;
 use super::table::run_all;
-use super::trial::{Conditions, TRANSIENT};
+use super::trial::{Conditions, FROM, TRANSIENT};
 use bowden::model::Term;
 use bowden_rig::{Drift, Reference};
 use serde::Serialize;
@@ -39,10 +39,6 @@ pub type Estimate = bowden::control::Estimator<f64>;
 
 /// Noise with which the gain of a found effect can be seen \[N·m rms\].
 const QUIET: f64 = 0.02;
-
-/// From where errors count \[s\]: the traces of Figure 9 start at the full reference; from
-/// 5 s errors count, as in the figures that the rig was calibrated to.
-const FROM: f64 = 5.0;
 
 /// What is asked.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -9,12 +9,10 @@ use bowden::control::{BenchRange, Changed, Compensator, CompensatorInput, Compen
 use bowden::effect::Motion;
 use bowden::model::{Model, Source, Term};
 use bowden::signal::{Derivative, DerivativeState};
+use bowden_lab::export::MOST_TERMS;
 use bowden_rig::Reference;
 
-/// Maximum number of terms of a model in the feed-forward.
-pub const MOST_TERMS: usize = 16;
-
-/// Parameters of the drive and the load, from a bench record or from a specification.
+/// What the drive and the load are like, from a bench record or from a data sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
     /// Motor torque of one unit of command \[N·m/unit\].

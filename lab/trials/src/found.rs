@@ -3,10 +3,10 @@
 
 use super::bench::{identify, record, Identified};
 use super::data_sheet::latency;
-use super::lineup::{adaptive, Laws, RATE};
+use super::lineup::{adaptive, Laws};
 use super::setup::{AdaptiveGains, Setup};
 use super::table::{run_all, Line};
-use super::trial::{Conditions, Controller, Law};
+use super::trial::{Conditions, Controller, Law, RATE};
 use super::undeclared::Undeclared;
 use bowden::control::{Pid, PidSettings};
 use std::cmp::Ordering;
@@ -14,11 +14,7 @@ use std::cmp::Ordering;
 /// Rate of the slow loops \[Hz\].
 pub const SLOW: f64 = 250.0;
 
-/// The reference rises from zero over this time \[s\]. After a start with an overshoot, the
-/// adaptive law would learn from the overshoot instead of the effect.
-pub const RAMP: f64 = 2.0;
-
-/// Gains of the quiet loops, as a share of the paper's gains.
+/// Share of the paper's gains that the quiet loops have.
 pub const QUIET: f64 = 0.2;
 
 /// One controller with the baseline model and with the found terms.
@@ -154,7 +150,9 @@ pub fn outcome(
     let term = undeclared.term(&setup.rig, &conditions.reference)?;
     let conditions = Conditions {
         undeclared: vec![term],
-        reference: conditions.reference.with_ramp(RAMP),
+        // A start that overshoots would decide what the adaptive law has learnt, instead of the
+        // effect: the reference rises from zero over two seconds.
+        reference: conditions.reference.with_ramp(2.0),
         ..conditions.clone()
     };
     let identified = identify(&record(&setup.rig, &conditions.undeclared, seed)?)?;

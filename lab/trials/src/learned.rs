@@ -24,9 +24,6 @@ pub struct Learned {
     pub latency: f64,
 }
 
-/// Corner of the triangle of one cell \[share of the cells a second\]: `sin(x)/x` is `2^(−1/4)`.
-const CORNER: f64 = 0.319;
-
 impl Learned {
     /// Over a cycle of `period` \[s\], on a rig at a rate \[Hz\].
     ///
@@ -43,7 +40,9 @@ impl Learned {
             return Err(Error::Capacity("cells"));
         }
         let a_second = gains.cells as f64 / period;
-        let width = (CORNER * a_second / gains.frequency).round().max(1.0);
+        // Corner of the triangle of one cell, as a share of the cells a second: `sin(x)/x` is
+        // `2^(−1/4)`.
+        let width = (0.319 * a_second / gains.frequency).round().max(1.0);
         let whole = |cells: f64, name| match (0.0..=f64::from(u16::MAX)).contains(&cells) {
             true => Ok(cells as u16),
             false if cells.is_finite() => Err(Error::OutOfRange(name)),

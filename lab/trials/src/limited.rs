@@ -8,10 +8,6 @@ use serde::Serialize;
 /// and then.
 pub const TOLD: f64 = 0.2;
 
-/// Share of the largest step from which the slew-rate limit counts as reached: a sum of floats need
-/// not reach it exactly.
-const MET: f64 = 1.0 - 1e-9;
-
 /// Shares of the samples of the steady part.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct AtLimit {
@@ -62,7 +58,8 @@ impl Counted {
         if command >= limits.high() || command <= limits.low() {
             self.range += 1.0;
         }
-        let reach = limits.slew().map(|slew| slew * dt * MET);
+        // A sum of floats need not reach the limit.
+        let reach = limits.slew().map(|slew| slew * dt * (1.0 - 1e-9));
         if reach.is_some_and(|reach| (command - before).abs() >= reach) {
             self.slew += 1.0;
         }

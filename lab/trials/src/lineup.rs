@@ -2,23 +2,20 @@
 //! be fair.
 
 use super::data_sheet::{latency, observer};
-use super::feed::{FeedForward, Surroundings, MOST_TERMS};
+use super::feed::{FeedForward, Surroundings};
 use super::learned::Learned;
 use super::setup::{AdaptiveGains, Setup};
-use super::trial::{Controller, Law, ThreeRegressors};
+use super::trial::{Controller, Law, ThreeRegressors, RATE};
 use bowden::control::{
     Adaptive, AdaptiveSettings, DisturbanceObserver, Estimator, Pid, PidSettings,
 };
 use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, Source, Term};
 use bowden::transmission::Transmission;
+use bowden_lab::export::MOST_TERMS;
 use bowden_rig::RigConfig;
 
-/// The rate of the paper's experiment, and of the reference rig \[Hz\].
-pub const RATE: f64 = 1000.0;
-
-/// The cycle of the learning, which is that of [`Reference::gait`](bowden_rig::Reference::gait)
-/// \[s\].
+/// The cycle that is learned over, that of [`Reference::gait`](bowden_rig::Reference::gait) \[s\].
 pub const GAIT: f64 = 1.0;
 
 /// All laws of a setup, checked.

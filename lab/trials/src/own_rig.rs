@@ -34,9 +34,6 @@ pub struct RigChanges {
     pub delay: Option<u8>,
 }
 
-/// How often the sub-step is halved so that it resolves a light rig.
-const MOST_HALVINGS: u32 = 6;
-
 impl RigChanges {
     /// The rig with these numbers; a sub-step that is too long for them becomes shorter.
     ///
@@ -62,7 +59,8 @@ impl RigChanges {
             ));
         }
         let none: [Term<f64>; 0] = [];
-        for _ in 0..MOST_HALVINGS {
+        // A light rig is resolved by 64 times as many sub-steps at most.
+        for _ in 0..6 {
             match Rig::<f64, 0>::try_new(rig, &none) {
                 Err(bowden::Error::Inadmissible(_)) => rig.sub_step *= 0.5,
                 _ => break,
@@ -133,11 +131,8 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
     }
 }
 
-/// Share of the range of the model's record that the reference uses.
-const SHARE: f64 = 0.8;
-
-/// Range of the reference, within the range of the model's record \[N·m\]; `None` if the file does
-/// not state it.
+/// Where the reference moves, over four fifths of what the record of a model has covered \[N·m\];
+/// `None` where the file does not say.
 ///
 /// # Errors
 /// A message if the record reaches no output in both directions.
@@ -148,7 +143,7 @@ pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[
     };
     let [low, high] = seen.position;
     let (low, high) = (cable.output(low, -1.0), cable.output(high, 1.0));
-    let (middle, half) = (0.5 * (low + high), 0.5 * SHARE * (high - low));
+    let (middle, half) = (0.5 * (low + high), 0.4 * (high - low));
     if !(half.is_finite() && middle.is_finite()) {
         return Ok(None);
     }

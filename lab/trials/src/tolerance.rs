@@ -2,8 +2,9 @@
 //! learning is proved to converge.
 
 use super::data_sheet::{nominal, shown};
-use super::lineup::{Laws, GAIT, RATE};
+use super::lineup::{Laws, GAIT};
 use super::setup::Setup;
+use super::trial::RATE;
 use bowden::Error;
 use bowden_bound::{Interval, IterativeLearningConvergence, ObserverStability, PlantRange};
 use bowden_rig::RigConfig;
@@ -44,15 +45,6 @@ pub struct Middle {
     /// Time from a command to its effect in the measurement \[s\].
     pub latency: f64,
 }
-
-/// Number of steps from 0 to 1 to which a tolerance is rounded.
-const STEPS: u32 = 1000;
-
-/// Largest factor by which the learning error of a tone changes per cycle.
-const FACTOR: f64 = 0.99;
-
-/// By how much a cycle may be longer or shorter than the gait's, as a share.
-const CADENCE: f64 = 0.1;
 
 static ASSUMPTIONS: &[&str] = &[
     "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), with constant parameters",
@@ -136,13 +128,15 @@ pub fn convergence(setup: &Setup) -> Result<Tolerance, String> {
     let laws = laws(setup)?;
     let plant = middle(setup, shown(&setup.rig, RATE))?;
     let cycle = Interval {
-        low: GAIT * (1.0 - CADENCE),
-        high: GAIT * (1.0 + CADENCE),
+        low: 0.9 * GAIT,
+        high: 1.1 * GAIT,
     };
     let (learning, cells) = (&laws.learning.learning, laws.learning.cells);
+    // What a cycle leaves of what is yet to be learned of a tone, at most.
+    let factor = 0.99;
     let converges = |share: f64| {
         let (law, range) = (&laws.learning_pi, plant.within(share));
-        IterativeLearningConvergence::try_new(learning, cells, &cycle, law, &range, FACTOR)
+        IterativeLearningConvergence::try_new(learning, cells, &cycle, law, &range, factor)
             .map(drop)
     };
     let (share, refused) = found(converges, most_in_hundredths);
@@ -185,11 +179,11 @@ fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The largest proved share. A proof for a range also covers each smaller range, so bisection finds
-/// it.
+/// The greatest share that is shown, by steps of 0.001: of a wider range nothing more can be, so
+/// halving finds it.
 fn most<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
-    let share = |step: u32| f64::from(step) / f64::from(STEPS);
-    let (mut good, mut bad) = (0, STEPS);
+    let share = |step: u32| f64::from(step) / 1000.0;
+    let (mut good, mut bad) = (0, 1000);
     while bad - good > 1 {
         let middle = u32::midpoint(good, bad);
         match shown(share(middle)) {

@@ -13,7 +13,14 @@ use bowden_rig::{Reference, Rig, RigConfig, RigSample};
 /// Maximum number of undeclared effects in the rig.
 pub const MOST_UNDECLARED: usize = 4;
 
-/// Start of the steady part \[s\]; the paper's Figure 9 shows the time before.
+/// The rate of the paper's experiment, and of the reference rig \[Hz\].
+pub const RATE: f64 = 1000.0;
+
+/// From where errors count \[s\]: the traces of Figure 9 start at the full reference; from
+/// 5 s errors count, as in the figures that the rig was calibrated to.
+pub const FROM: f64 = 5.0;
+
+/// Where the steady part begins \[s\]; the paper's Figure 9 shows what comes before.
 pub const TRANSIENT: f64 = 12.0;
 
 /// The law of a controller.

@@ -3,6 +3,7 @@
 //! Shapes are in units of the joint's motion along the reference; the gain is chosen so that the
 //! effect's contribution along the reference has the requested rms value.
 
+use super::trial::FROM;
 use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity, CATALOGUE};
 use bowden::model::{Source, Term};
 use bowden_rig::{Reference, RigConfig};
@@ -179,9 +180,8 @@ struct Path {
     distal: Vec<Motion<f64>>,
 }
 
-/// Step \[s\] and length \[s\] of the path along which strengths are counted.
+/// Step of the path along which strengths are counted \[s\].
 const STEP: f64 = 0.005;
-const LENGTH: f64 = 60.0;
 
 impl Path {
     fn new(rig: &RigConfig<f64>, reference: &Reference<f64>) -> Self {
@@ -190,7 +190,8 @@ impl Path {
             velocity: m.velocity * by,
             acceleration: m.acceleration * by,
         };
-        let times = (0..(LENGTH / STEP) as usize).map(|k| 5.0 + STEP * k as f64);
+        // A minute from where errors count.
+        let times = (0..(60.0 / STEP) as usize).map(|k| FROM + STEP * k as f64);
         let input: Vec<_> = times.map(|t| reference.motion(t)).collect();
         let distal = 1.0 / rig.load_stiffness;
         let proximal = distal + 1.0 / rig.cable_stiffness;

@@ -13,19 +13,10 @@ use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Fallback, Form, Lim
 use bowden_bound::{Interval, PeakSampled, Plant as Bounds};
 use serde::Serialize;
 
-/// Half-width of a box where the model file has no interval, as a share of the value.
-const UNKNOWN: f64 = 0.1;
-
 /// What the drive's gain is known to, as a share.
 const DRIVE: f64 = 0.02;
 
-/// h·lambda·g⁺·(k + delta_max/epsilon): half of the largest value that the constructor admits.
-const LOOP_GAIN: f64 = 0.5;
-
-/// An estimate crosses its box in this many time constants of the loop, at abs(s) = epsilon.
-const CROSSING: f64 = 100.0;
-
-/// The law, or the reason why there is none.
+/// The law, or why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdaptiveDesign {
     /// Step of the law \[s\]: the shortest multiple of the sample that is longer than the delay.
@@ -74,7 +65,7 @@ fn interval(plant: &Plant, name: &str, value: f64) -> (Interval<f64>, bool) {
     match plant.about.intervals.get(name) {
         Some(&[low, high]) if low <= value && value <= high => (Interval { low, high }, false),
         _ => {
-            let (low, high) = (value * (1.0 - UNKNOWN), value * (1.0 + UNKNOWN));
+            let (low, high) = (0.9 * value, 1.1 * value);
             (Interval::between(low, high), true)
         }
     }
@@ -123,7 +114,8 @@ pub(super) fn design(plant: &Plant, around: &Around) -> AdaptiveDesign {
         step,
         every: every as usize,
         at_the_rate: every <= 1.0,
-        loop_gain: LOOP_GAIN,
+        // Half of what the constructor admits.
+        loop_gain: 0.5,
         settings: None,
         refused: None,
         certificate: None,
@@ -187,7 +179,8 @@ fn settings(
     }
     let k = bandwidth / (2.0 * lambda * g);
     let epsilon = delta / k;
-    let time = CROSSING / bandwidth;
+    // In a hundred time constants of the loop an estimate crosses its box, at abs(s) = epsilon.
+    let time = 100.0 / bandwidth;
     let leakage = 0.1 / time;
     let [low, high] = plant.ends();
     let torque = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);

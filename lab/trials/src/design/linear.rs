@@ -70,13 +70,11 @@ pub struct Margins {
     pub least_real: f64,
 }
 
-/// Points of the sweep in a half turn of the delay's phase.
-const RESOLUTION: f64 = 24.0;
-
 /// The margins behind `delay` samples.
 pub(super) fn margins(gains: Gains, delay: usize) -> Margins {
     let delay = delay as f64;
-    let count = (RESOLUTION * (delay + 1.0)).ceil();
+    // Points of the sweep: 24 in a half turn of the delay's phase.
+    let count = (24.0 * (delay + 1.0)).ceil();
     let point = |k: f64| {
         let w = PI * k / count;
         (w, gains.at(delay, w))

@@ -68,9 +68,6 @@ pub struct Question {
 /// Most samples of delay: a slower rate has the same loop.
 const MOST_DELAY: f64 = 1000.0;
 
-/// The largest change between two samples of white noise, in its rms values.
-const PEAK_OF_NOISE: f64 = 6.0;
-
 /// The derivative is worth its noise if the integral gain grows by this factor.
 const WORTH: f64 = 1.1;
 
@@ -425,7 +422,8 @@ fn bounds(
 ) -> Result<Bounds, String> {
     let [low, high] = plant.input.map(|torque| torque / asked.drive_gain);
     let proportional = (used.k_p + used.k_i) / unit.gain;
-    let slew_of_noise = 2.0 * proportional * PEAK_OF_NOISE * asked.noise * asked.rate;
+    // The largest change between two samples of white noise is six times its rms.
+    let slew_of_noise = 2.0 * proportional * 6.0 * asked.noise * asked.rate;
     let slew_of_record = plant.greatest_rate() / asked.drive_gain;
     Ok(Bounds {
         low,

@@ -210,11 +210,11 @@ impl Plant {
         let shapes: Vec<f64> = term.shapes.iter().map(|shape| shape.value).collect();
         let effect = bowden::effect::Effect::try_from_name(&term.effect, &shapes)
             .map_err(|e| format!("terms: {}: {e}", term.effect))?;
-        const GRID: usize = 8;
-        let along = |[low, high]: [f64; 2], k: usize| low + (high - low) * k as f64 / GRID as f64;
+        let grid = 8;
+        let along = |[low, high]: [f64; 2], k: usize| low + (high - low) * k as f64 / grid as f64;
         let mut most = 0.0_f64;
-        for (i, j) in (0..=GRID).flat_map(|i| (0..=GRID).map(move |j| (i, j))) {
-            for (k, load) in [(0, self.input[0]), (GRID, self.input[1])] {
+        for (i, j) in (0..=grid).flat_map(|i| (0..=grid).map(move |j| (i, j))) {
+            for (k, load) in [(0, self.input[0]), (grid, self.input[1])] {
                 let motion = Motion {
                     position: along(span.position, i) - term.origin,
                     velocity: along(span.velocity, j),

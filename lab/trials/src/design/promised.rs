@@ -11,9 +11,6 @@ use crate::gains::GainsFile;
 use crate::proof::{designed, Named, Proof, Sides};
 use bowden::control::{AdaptiveSettings, Form};
 
-/// Changes after which a file that is still refused stays as it was.
-const MOST: usize = 8;
-
 /// Of a number that is changed, on the safe side of it.
 const DIGITS: u8 = 4;
 
@@ -21,7 +18,8 @@ const DIGITS: u8 = 4;
 pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
     let mut own = gains.clone();
     let mut why = String::new();
-    for _ in 0..MOST {
+    // After eight changes a file that is still refused stays as it was.
+    for _ in 0..8 {
         let proof = designed::prove(&own)?;
         let Some(refusal) = &proof.refused else {
             return Ok((own, proof));

@@ -206,9 +206,6 @@ pub struct Refusal {
     pub mend: String,
 }
 
-/// Most regressors of a file.
-const MOST: usize = 8;
-
 /// Up to which adaptation gain and which leakage \[1/s\] nothing overflows: a file states
 /// neither, and no law comes near.
 const MOST_ADAPTATION: f64 = 1_073_741_824.0;
@@ -261,7 +258,7 @@ fn of_any<T: Real>(form: &Form) -> Result<Proof, String> {
         6 => of::<T, 6>(form),
         7 => of::<T, 7>(form),
         8 => of::<T, 8>(form),
-        many => Err(format!("{many} regressors: at most {MOST} are allowed")),
+        many => Err(format!("{many} regressors: at most 8 are allowed")),
     }
 }
 
