@@ -32,9 +32,6 @@ pub struct Certify {
     gappa: Option<PathBuf>,
 }
 
-/// Exit status of gains that are not proved.
-const NOT_PROVED: u8 = 1;
-
 impl Certify {
     pub fn run(self) -> Result<ExitCode, Failure> {
         let width = Width::of_stdout();
@@ -63,7 +60,7 @@ impl Certify {
         super::say(report.trim_end())?;
         Ok(match proof.proved {
             true => ExitCode::SUCCESS,
-            false => ExitCode::from(NOT_PROVED),
+            false => ExitCode::FAILURE,
         })
     }
 

@@ -1,6 +1,7 @@
 //! `bowden validate`: does a model still hold on the next record?
 
 use super::drawing::{provenance, Drawing};
+use super::pattern::LARGEST;
 use super::reading::{file, Columns, ModeName};
 use super::{outputs, Failure};
 use crate::view::{check_json, check_text, Width};
@@ -8,9 +9,6 @@ use bowden_lab::facts::{check, CheckQuestion, ModelOfFile, Source};
 use bowden_page::Check as Page;
 use clap::Args;
 use std::path::{Path, PathBuf};
-
-/// A model file larger than this is none.
-const LARGEST: u64 = 1 << 20;
 
 #[derive(Args)]
 pub struct Check {

@@ -11,6 +11,9 @@ use std::fs;
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::{is_separator, Component, Path, PathBuf};
 
+/// Most bytes of a model file, and of the header of a test vector.
+pub const LARGEST: u64 = 1 << 20;
+
 /// As in a shell: `*` stays in its folder and shows no hidden files.
 const SHELL: MatchOptions = MatchOptions {
     case_sensitive: true,
@@ -57,16 +60,14 @@ pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// Bytes of a header that are looked at: more than any model's channels need.
-const HEADER: u64 = 1 << 16;
-
-/// Whether a file is a test vector from `identify --model-out`, by its name and its first line.
+/// Whether this is a test vector that `identify --model-out` has written: by its name and its first
+/// line.
 pub fn is_vector(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let first = || {
         let mut line = String::new();
         let file = fs::File::open(path).ok()?;
-        BufReader::new(file.take(HEADER))
+        BufReader::new(file.take(LARGEST))
             .read_line(&mut line)
             .ok()?;
         Some(line)

@@ -22,9 +22,6 @@ pub struct Plan {
     out: Option<PathBuf>,
 }
 
-/// Exit status where a file was asked for and nothing is planned that could be written.
-const NOTHING_TO_WRITE: u8 = 1;
-
 impl Plan {
     pub fn run(self) -> Result<ExitCode, Failure> {
         let asked = self.reading.asked()?;
@@ -49,7 +46,7 @@ impl Plan {
             return Ok(match &self.out {
                 Some(path) => {
                     anstream::eprintln!("{} was not written", path.display());
-                    ExitCode::from(NOTHING_TO_WRITE)
+                    ExitCode::FAILURE
                 }
                 None => ExitCode::SUCCESS,
             });

@@ -50,7 +50,7 @@ const LONGEST: usize = 500;
 /// Named numeric constants of each package, and of each room of this one: thresholds, limits,
 /// grids. A constant costs nothing to add and is never missed: these numbers may only fall.
 const CONSTANTS: [(&str, usize); 18] = [
-    ("cli", 19),
+    ("cli", 8),
     ("identify/algebra", 1),
     ("identify/alteration", 1),
     ("identify/check", 14),
@@ -63,10 +63,10 @@ const CONSTANTS: [(&str, usize); 18] = [
     ("identify/problem", 28),
     ("identify/score", 30),
     ("identify/search", 51),
-    ("page", 5),
+    ("page", 3),
     ("record", 33),
-    ("rig", 5),
-    ("synth", 10),
+    ("rig", 3),
+    ("synth", 6),
     ("trials", 25),
 ];
 

@@ -100,9 +100,6 @@ fn between(from: f64, until: f64) -> Axis {
     }
 }
 
-/// Seconds of a gait that a figure can show step by step.
-const STEPS: f64 = 3.0;
-
 fn error(row: &Row) -> f64 {
     row.tau_o - row.reference
 }
@@ -195,7 +192,8 @@ impl<'a> Part<'a> {
         let errors = part.error_axis(seconds, from);
         let both = part.torque_axis(seconds, |row| [row.tau_i, row.tau_o]);
         let first = match heading.gait {
-            true => seconds - STEPS,
+            // Three seconds of a gait can be seen step by step.
+            true => seconds - 3.0,
             false => 0.0,
         };
         html! {

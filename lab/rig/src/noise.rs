@@ -24,10 +24,6 @@ pub struct Noise {
 
 /// From one state to the next: 2^64 over the golden ratio.
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
-/// 2^-53.
-const LEAST: f64 = 1.0 / 9_007_199_254_740_992.0;
-/// Maximum number of pairs to try; each fails with probability 1 − pi/4.
-const MOST_TRIES: u32 = 64;
 
 impl Noise {
     /// A generator that starts from `seed`.
@@ -61,7 +57,8 @@ impl Noise {
                 return second;
             }
         }
-        for _ in 0..MOST_TRIES {
+        // Each pair fails with probability 1 − pi/4.
+        for _ in 0..64 {
             self.state = self.state.wrapping_add(STEP.wrapping_mul(2));
             if let Some((first, _)) = pair(self.state) {
                 self.spare = Some(self.state);
@@ -82,7 +79,7 @@ fn mixed(state: u64) -> u64 {
 
 /// In [0, 1), exact in `f64`.
 fn uniform<T: Real>(bits: u64) -> T {
-    T::from(bits >> 11).map_or_else(T::zero, |count| count * T::from_f64(LEAST))
+    T::from(bits >> 11).map_or_else(T::zero, |count| count * T::from_f64(0.5 * f64::EPSILON))
 }
 
 /// Two deviates of the last two states, where their point lies in the circle.

@@ -111,10 +111,6 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    const MOVE: f64 = 3.0;
-    const BRAKE: f64 = 0.25;
-    const HOLD: f64 = 1.0;
-
     /// Own time with its derivatives by the time `t`.
     pub(super) fn at(self, t: f64) -> Motion {
         if !self.holds {
@@ -124,11 +120,11 @@ impl Pace {
                 a: 0.0,
             };
         }
-        let (brake, hold) = (Self::BRAKE, Self::HOLD);
-        let cycle = Self::MOVE + 2.0 * brake + hold;
+        let (moves, brake, hold) = (3.0, 0.25, 1.0);
+        let cycle = moves + 2.0 * brake + hold;
         let whole = (t / cycle).floor();
         let q = t - whole * cycle;
-        let start = whole * (Self::MOVE + brake);
+        let start = whole * (moves + brake);
         // Raised cosine from full pace to rest; its integral is half the time.
         let braking = |q: f64| {
             let (s, c) = (PI * q / brake).sin_cos();
@@ -138,16 +134,16 @@ impl Pace {
                 -0.5 * PI / brake * s,
             )
         };
-        let (x, v, a) = if q < Self::MOVE {
+        let (x, v, a) = if q < moves {
             (q, 1.0, 0.0)
-        } else if q < Self::MOVE + brake {
-            let (x, v, a) = braking(q - Self::MOVE);
-            (Self::MOVE + x, v, a)
-        } else if q < Self::MOVE + brake + hold {
-            (Self::MOVE + 0.5 * brake, 0.0, 0.0)
+        } else if q < moves + brake {
+            let (x, v, a) = braking(q - moves);
+            (moves + x, v, a)
+        } else if q < moves + brake + hold {
+            (moves + 0.5 * brake, 0.0, 0.0)
         } else {
             let (x, v, a) = braking(cycle - q);
-            (Self::MOVE + brake - x, v, -a)
+            (moves + brake - x, v, -a)
         };
         Motion { x: start + x, v, a }
     }

@@ -14,9 +14,8 @@ const BEFORE: f64 = 2.0;
 /// Fewest fine steps a sample, and the longest fine step \[s\].
 const SUBSTEPS: f64 = 20.0;
 const LONGEST_STEP: f64 = 1e-4;
-/// Most fine steps in all where they are kept, some hundred megabytes, and where only the samples
-/// are: ten million samples at 1 kHz, some gigabytes.
-const MOST_STEPS_KEPT: f64 = 2.1e7;
+/// Most fine steps in all: ten million samples at 1 kHz, some gigabytes. Where all of them are
+/// kept, a tenth of that.
 const MOST_STEPS: f64 = 2.1e8;
 /// Stands for the noise as measure of strength where there is none.
 const STRENGTH_UNIT: f64 = 0.05;
@@ -110,12 +109,8 @@ fn grid(recipe: &Recipe, keeps_all: bool) -> Result<Grid, RecipeError> {
     let every = SUBSTEPS.max((1.0 / (recipe.rate * LONGEST_STEP)).ceil());
     let h = 1.0 / (recipe.rate * every);
     let first = (BEFORE / h).ceil();
-    let most = if keeps_all {
-        MOST_STEPS_KEPT
-    } else {
-        MOST_STEPS
-    };
-    if first + samples * every > most {
+    let kept = if keeps_all { 10.0 } else { 1.0 };
+    if kept * (first + samples * every) > MOST_STEPS {
         return refuse(format!(
             "{samples} samples at {} Hz are too many{}",
             recipe.rate,

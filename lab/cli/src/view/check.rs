@@ -223,14 +223,12 @@ fn beyond(one: &Outside) -> String {
     )
 }
 
-/// Where the width is too small, the noise goes first, then the share.
-const DROPPED: &[usize] = &[3, 2];
-
 fn errors(check: &CheckFacts) -> Columns {
     let record = &check.record;
     let unit = record.unit.as_deref().unwrap_or_default();
     let name = format!("Error{}", in_brackets(record.unit.as_deref()));
-    let mut rows = Columns::new(&[&name, "RMSE", "of the output's std", "vs noise"], DROPPED);
+    let header = [&name, "RMSE", "of the output's std", "vs noise"];
+    let mut rows = Columns::new(&header, &[3, 2]);
     let open = || "–".to_owned();
     let mut add = |name: &str, rmse: f64| {
         let times = record.floors(rmse);

@@ -119,10 +119,6 @@ fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
     out.push('\n');
 }
 
-/// Where the width is too small, the share of the reference is dropped first, then the reversals,
-/// the deviations, the paper, the bound, the measured error, the effort, and the peak.
-const DROPPED: &[usize] = &[5, 10, 7, 4, 2, 6, 11, 3, 9, 8];
-
 fn steady(heading: &Heading, lineup: &Lineup, verbose: bool) -> Columns {
     let mut rows = Columns::new(
         &[
@@ -139,7 +135,7 @@ fn steady(heading: &Heading, lineup: &Lineup, verbose: bool) -> Columns {
             "reversals/s",
             "bound",
         ],
-        DROPPED,
+        &[5, 10, 7, 4, 2, 6, 11, 3, 9, 8],
     );
     let more = |cell: String| if verbose { cell } else { NONE.to_owned() };
     // One trial has no deviation.

@@ -1,15 +1,12 @@
 //! Output of `bowden compare --effect`: identified terms as a feed-forward of the controllers.
 
 use super::compare_rows::{conditions, row, trials};
-use super::layout::{block, heading as headline, prose, Columns, Width};
+use super::layout::{block, heading as headline, prose, Columns, Width, LISTED};
 use anstyle::AnsiColor;
 use bowden_trials::facts::{Found, Heading, Line, Outcome, Pair};
 use serde_json::{json, Value};
 
-/// Maximum number of listed bench records; `--verbose` and the JSON have all.
-const LISTED: usize = 4;
-
-/// "0.123", or the time at which the loop diverged.
+/// "0.123", or when the loop ran away.
 fn error(line: &Line) -> String {
     match line.ran_away {
         None => format!("{:.4}", line.rmse_true.mean),
@@ -119,13 +116,10 @@ fn over_seeds(found: &Found) -> Columns {
     rows
 }
 
-/// Where the width is too small, the error without a model is dropped first, then the change.
-const DROPPED: &[usize] = &[1, 4];
-
 fn seed(outcome: &Outcome) -> Columns {
     let name = format!("True rms [N·m], seed {}", outcome.seed);
     let header = [&name, "no model", "baseline", "found terms", "change"];
-    let mut rows = Columns::new(&header, DROPPED);
+    let mut rows = Columns::new(&header, &[1, 4]);
     for pair in &outcome.pairs {
         rows.add([
             format!("  {}", pair.controller),

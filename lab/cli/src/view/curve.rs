@@ -6,11 +6,6 @@ use bowden_lab::facts::{number, with_interval, Facts, Knot, Segments, UnknownFac
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// Maximum number of printed points.
-const LINES: usize = 20;
-/// Length of the longest bar.
-const BAR: f64 = 24.0;
-
 /// The part of the JSON.
 #[derive(Serialize)]
 pub(super) struct UnknownPart<'a> {
@@ -43,8 +38,10 @@ impl<'a> UnknownPart<'a> {
 pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
     let unknown = facts.unknown.as_ref()?;
     let knots = &unknown.curve;
-    let every = knots.len().div_ceil(LINES).max(1);
+    // Twenty points at most.
+    let every = knots.len().div_ceil(20).max(1);
     let largest = knots.iter().map(|k| k.value.abs()).fold(0.0, f64::max);
+    let bar_width = 24;
     let mut out = String::new();
     block(
         &mut out,
@@ -71,7 +68,7 @@ pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
             Some(_) => with_interval(knot.value, knot.ci95),
             None => format!("{} (not identified)", number(knot.value, None)),
         };
-        let length = (BAR * knot.value.abs() / largest.max(1e-300)).round() as usize;
+        let length = (bar_width as f64 * knot.value.abs() / largest.max(1e-300)).round() as usize;
         let bar = "#".repeat(length);
         let (left, right) = if knot.value < 0.0 {
             (bar.as_str(), "")
@@ -82,7 +79,7 @@ pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
             out,
             "{:>12}  {value:<24} {left:>width$}|{right}",
             number(knot.at, Some(0.01 * knot.at.abs())),
-            width = BAR as usize
+            width = bar_width
         );
     }
     Some(out)

@@ -11,7 +11,10 @@ const LABEL: usize = 8;
 /// Most columns of prose: longer lines are hard to read.
 const MOST: usize = 100;
 
-/// The width of the layout; `None`, as for a pipe, wraps nothing and drops no column.
+/// Most files, stretches or seeds that are listed; the JSON has all.
+pub(super) const LISTED: usize = 3;
+
+/// The width to lay out for; `None` wraps nothing and drops no column, as for a pipe.
 #[derive(Debug, Clone, Copy)]
 pub struct Width(Option<usize>);
 

@@ -224,14 +224,10 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
     out.push('\n');
 }
 
-/// Where the width is too small, the family is dropped first, then the trials, the noise, and the
-/// gain.
-const DROPPED: &[usize] = &[1, 5, 3, 4];
-
 fn table(power: &PowerFacts, rows: &[&PowerRow]) -> Columns {
     let rms = format!("rms{}", in_brackets(power.record.unit.as_deref()));
     let header = ["Effect", "family", &rms, "vs noise", "gain", "found"];
-    let mut out = Columns::new(&header, DROPPED);
+    let mut out = Columns::new(&header, &[1, 5, 3, 4]);
     for row in rows {
         let part = part(&power.record, row);
         let digits = |value: f64| number(value, Some(0.05 * value));

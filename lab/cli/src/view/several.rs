@@ -1,13 +1,10 @@
 //! Several records: errors by file, and the gains of each file.
 
-use super::layout::{block, Width};
+use super::layout::{block, Width, LISTED};
 use super::words::{estimate, table};
 use bowden_lab::facts::{
     across, number, Across, Facts, FinalFacts, Grade, HeldOutOf, RecordFacts, RoundFacts,
 };
-
-/// Maximum number of files or stretches that are listed; the JSON has all.
-pub(super) const LISTED: usize = 3;
 
 /// The lengths of the records, in words.
 pub(super) fn size(record: &RecordFacts) -> String {

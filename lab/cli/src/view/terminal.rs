@@ -2,8 +2,8 @@
 
 use super::curve;
 use super::hand_over;
-use super::layout::{block, heading, prose, two_columns, Columns, Report, Width};
-use super::several::{self, LISTED};
+use super::layout::{block, heading, prose, two_columns, Columns, Report, Width, LISTED};
+use super::several;
 use super::words::{estimate, in_brackets, table};
 use anstyle::AnsiColor;
 use bowden_lab::facts::{
@@ -260,18 +260,13 @@ fn unlike(facts: &Facts) -> Option<String> {
     ))
 }
 
-/// Where the width is too small, the selection error is dropped first, then that of the fit.
-const DROPPED: &[usize] = &[2, 1, 4];
-
 /// The error after each term.
 fn errors(facts: &Facts, report: Report) -> String {
     let width = report.width;
     let record = &facts.record;
     let name = format!("RMSE{}", in_brackets(record.unit.as_deref()));
-    let mut rows = Columns::new(
-        &[&name, "fit", "selection", "held-out", "vs noise"],
-        DROPPED,
-    );
+    let header = [&name, "fit", "selection", "held-out", "vs noise"];
+    let mut rows = Columns::new(&header, &[2, 1, 4]);
     let mut row = |name: String, rmse: &Segments, mark: &str| {
         let digits = |rmse: f64| number(rmse, Some(0.05 * rmse));
         let times = record.held_out_floors(rmse.held_out);

@@ -18,8 +18,6 @@ use std::fmt::Write as _;
 
 /// Number of columns of pixels; each column keeps its extremes.
 const COLUMNS: usize = 900;
-/// The same of a figure among many, which is a third as wide.
-const FEW_COLUMNS: usize = 260;
 /// Most points of a curve that is no function of its x.
 const POINTS: usize = 4000;
 /// The area in which paths are drawn.
@@ -151,7 +149,8 @@ impl Chart {
     #[must_use]
     pub fn lines(self, class: &str, runs: &[Vec<[f64; 2]>]) -> Self {
         let columns = match self.is_low {
-            true => FEW_COLUMNS,
+            // A figure among many is a third as wide.
+            true => COLUMNS / 3,
             false => COLUMNS,
         };
         let run = |points: &Vec<[f64; 2]>| {
