@@ -8,8 +8,9 @@ use std::ops::Range;
 
 /// Share of the samples, or of a signal's spread, from which a defect is told.
 pub(super) const TRACE: f64 = 0.003;
-/// Share from which conclusions are invalid where the defect acts on all samples behind it: at the
-/// input, whose motion acts through the hysteresis, and in time.
+/// Share from which a movement counts, and coarse steps are told; and from which conclusions are
+/// invalid where the defect acts on all samples behind it: at the input, whose motion acts through
+/// the hysteresis, and in time.
 pub(super) const FRACTION: f64 = 0.02;
 /// Share from which other conclusions are invalid; and the share of exceptions from which they are
 /// the rule.
