@@ -82,6 +82,48 @@ macro_rules! checked {
 }
 pub(crate) use checked;
 
+/// Plain data: the derived traits that each such type has, and its stored form.
+///
+/// Reading refuses unknown fields. The names of variants are in kebab case.
+macro_rules! data {
+    () => {};
+    ($(#[$attr:meta])* $vis:vis $kind:ident $name:ident { $($body:tt)* } $($more:tt)*) => {
+        crate::data! { @ $kind [] $(#[$attr])* $vis $kind $name { $($body)* } }
+        crate::data! { $($more)* }
+    };
+    (
+        $(#[$attr:meta])* $vis:vis $kind:ident $name:ident<T $(, const $n:ident: usize)?> { $($body:tt)* }
+        $($more:tt)*
+    ) => {
+        crate::data! {
+            @ $kind
+            [, bound(
+                serialize = "T: crate::Real + serde::Serialize",
+                deserialize = "T: crate::Real + serde::Deserialize<'de>"
+            )]
+            $(#[$attr])* $vis $kind $name<T $(, const $n: usize)?> { $($body)* }
+        }
+        crate::data! { $($more)* }
+    };
+    (@ enum [$($bound:tt)*] $($item:tt)+) => {
+        crate::data! { @ [, rename_all = "kebab-case" $($bound)*] $($item)+ }
+    };
+    (@ struct $bound:tt $($item:tt)+) => {
+        crate::data! { @ $bound $($item)+ }
+    };
+    (@ [$($serde:tt)*] $($item:tt)+) => {
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[cfg_attr(
+            feature = "serde",
+            derive(serde::Serialize, serde::Deserialize),
+            serde(deny_unknown_fields $($serde)*)
+        )]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        $($item)+
+    };
+}
+pub(crate) use data;
+
 /// A configuration or a state, and its stored form.
 ///
 /// Deserialising reads the fields, refuses others, and returns what the block after `=>` makes of

@@ -90,7 +90,7 @@ mod real;
 pub mod signal;
 pub mod transmission;
 
-pub(crate) use checked::checked;
+pub(crate) use checked::{checked, data};
 pub use error::Error;
 pub use real::Real;
 

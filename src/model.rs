@@ -32,16 +32,15 @@ use crate::{Error, Real};
 pub use fixed::{FixedModel, Terms};
 pub use state::ModelState;
 
-/// The motion that an effect reads.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Source {
-    /// The transmission's input.
-    Input,
-    /// One of the sample's channels, from 0.
-    Channel(u8),
+crate::data! {
+    /// The motion that an effect reads.
+    #[derive(Eq, Hash)]
+    pub enum Source {
+        /// The transmission's input.
+        Input,
+        /// One of the sample's channels, from 0.
+        Channel(u8),
+    }
 }
 
 /// One effect of a model, with its gain and its origin.

@@ -39,16 +39,15 @@ pub use inverse::Inverse;
 /// The largest sigma that a [`BoucWen`] accepts.
 const MOST: f64 = 1e9;
 
-/// Input and output quantities of a [`Transmission`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Mode {
-    /// Proximal torque [N·m] to distal torque [N·m], equations (5)-(7).
-    Torque,
-    /// Displacement to force, equations (1)-(2); or voltage to displacement.
-    Displacement,
+crate::data! {
+    /// Input and output quantities of a [`Transmission`].
+    #[derive(Eq)]
+    pub enum Mode {
+        /// Proximal torque [N·m] to distal torque [N·m], equations (5)-(7).
+        Torque,
+        /// Displacement to force, equations (1)-(2); or voltage to displacement.
+        Displacement,
+    }
 }
 
 crate::checked::stored! {

@@ -59,51 +59,46 @@ impl<T: Real> CompensatorInput<'_, T> {
     }
 }
 
-/// Output of a [`Compensator`]'s step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CompensatorOutput<T> {
-    /// The transmission's input \[input unit\], such as tau_i \[N·m\]; finite.
-    pub command: T,
-    /// A good sample, or the fault; a fault holds the last good command.
-    pub status: Status,
-    /// Contribution of the effects to the output \[output unit\], zero on a bad sample.
-    pub effects: T,
-    /// The model's hysteresis state, within ±1.
-    pub eta: T,
-}
+crate::data! {
+    /// Output of a [`Compensator`]'s step.
+    pub struct CompensatorOutput<T> {
+        /// The transmission's input \[input unit\], such as tau_i \[N·m\]; finite.
+        pub command: T,
+        /// A good sample, or the fault; a fault holds the last good command.
+        pub status: Status,
+        /// Contribution of the effects to the output \[output unit\], zero on a bad sample.
+        pub effects: T,
+        /// The model's hysteresis state, within ±1.
+        pub eta: T,
+    }
 
-/// Range of one source in the bench record: the effects do not extrapolate beyond it.
-///
-/// ```
-/// use bowden::control::{BenchRange, Compensator};
-/// use bowden::effect::{DragCubic, Motion};
-/// use bowden::hysteresis::BoucWen;
-/// use bowden::model::{Model, Source, Term};
-/// use bowden::transmission::Transmission;
-/// # fn main() -> Result<(), bowden::Error> {
-/// let cable = Transmission::torque(0.9978, 7.004, 0.05174, BoucWen::try_new(0.09582, 0.6, 3.871)?)?;
-/// let (effect, source) = (DragCubic.into(), Source::Channel(0));
-/// let model = Model::<f32, 1>::try_new(Some(cable), &[Term { effect, source, origin: 0.0, gain: -0.1 }])?;
-/// let high = Motion { position: 1.5, velocity: 3.0, acceleration: 20.0 };
-/// let low = Motion { position: -1.5, velocity: -3.0, acceleration: -20.0 };
-/// let compensator = Compensator::try_new(&model)?.with_ranges(&[BenchRange { source, low, high }])?;
-/// # let _ = compensator;
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BenchRange<T> {
-    /// The source; for [`Source::Input`] the position is the load's range in torque mode.
-    pub source: Source,
-    /// Minimum of position, velocity and acceleration.
-    pub low: Motion<T>,
-    /// Maximum of position, velocity and acceleration.
-    pub high: Motion<T>,
+    /// Range of one source in the bench record: the effects do not extrapolate beyond it.
+    ///
+    /// ```
+    /// use bowden::control::{BenchRange, Compensator};
+    /// use bowden::effect::{DragCubic, Motion};
+    /// use bowden::hysteresis::BoucWen;
+    /// use bowden::model::{Model, Source, Term};
+    /// use bowden::transmission::Transmission;
+    /// # fn main() -> Result<(), bowden::Error> {
+    /// let cable = Transmission::torque(0.9978, 7.004, 0.05174, BoucWen::try_new(0.09582, 0.6, 3.871)?)?;
+    /// let (effect, source) = (DragCubic.into(), Source::Channel(0));
+    /// let model = Model::<f32, 1>::try_new(Some(cable), &[Term { effect, source, origin: 0.0, gain: -0.1 }])?;
+    /// let high = Motion { position: 1.5, velocity: 3.0, acceleration: 20.0 };
+    /// let low = Motion { position: -1.5, velocity: -3.0, acceleration: -20.0 };
+    /// let compensator = Compensator::try_new(&model)?.with_ranges(&[BenchRange { source, low, high }])?;
+    /// # let _ = compensator;
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub struct BenchRange<T> {
+        /// The source; for [`Source::Input`] the position is the load's range in torque mode.
+        pub source: Source,
+        /// Minimum of position, velocity and acceleration.
+        pub low: Motion<T>,
+        /// Maximum of position, velocity and acceleration.
+        pub high: Motion<T>,
+    }
 }
 
 impl<T: Real> BenchRange<T> {

@@ -5,15 +5,14 @@ use super::{
 };
 use crate::Real;
 
-/// Output of a controller's step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Output<T> {
-    /// Command for the drive \[command unit\]: finite and within the limits.
-    pub command: T,
-    /// Status of the sample: good, or the fault and the substitute command.
-    pub status: Status,
+crate::data! {
+    /// Output of a controller's step.
+    pub struct Output<T> {
+        /// Command for the drive \[command unit\]: finite and within the limits.
+        pub command: T,
+        /// Status of the sample: good, or the fault and the substitute command.
+        pub status: Status,
+    }
 }
 
 /// One sample for any controller; each controller reads the fields that it needs.

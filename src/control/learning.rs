@@ -117,17 +117,16 @@ impl<T: Real> IterativeLearningInput<T> {
     }
 }
 
-/// Output of an [`IterativeLearning`]'s step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct IterativeLearningOutput<T> {
-    /// Value to add to the command \[command unit\]: always finite and within ±limit.
-    pub feed_forward: T,
-    /// Good: a good sample. [`Status::Degraded`]: the feed-forward belongs to this phase, but
-    /// the error was unusable or the phase has jumped. [`Status::Held`]: the phase is invalid,
-    /// and the last feed-forward stays.
-    pub status: Status,
+crate::data! {
+    /// Output of an [`IterativeLearning`]'s step.
+    pub struct IterativeLearningOutput<T> {
+        /// Value to add to the command \[command unit\]: always finite and within ±limit.
+        pub feed_forward: T,
+        /// Good: a good sample. [`Status::Degraded`]: the feed-forward belongs to this phase, but
+        /// the error was unusable or the phase has jumped. [`Status::Held`]: the phase is invalid,
+        /// and the last feed-forward stays.
+        pub status: Status,
+    }
 }
 
 crate::checked! {

@@ -106,15 +106,14 @@ pub struct ObserverInput<T> {
     pub measured: T,
 }
 
-/// Output of a [`DisturbanceObserver`]'s step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ObserverOutput<T> {
-    /// d_hat \[command unit\], the value to add to the command: always finite and within ±limit.
-    pub estimate: T,
-    /// A good sample, or the fault; a fault holds the estimate.
-    pub status: Status,
+crate::data! {
+    /// Output of a [`DisturbanceObserver`]'s step.
+    pub struct ObserverOutput<T> {
+        /// d_hat \[command unit\], the value to add to the command: always finite and within ±limit.
+        pub estimate: T,
+        /// A good sample, or the fault; a fault holds the estimate.
+        pub status: Status,
+    }
 }
 
 crate::checked! {

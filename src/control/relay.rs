@@ -110,58 +110,45 @@ pub struct Relay<T> {
     settings: RelaySettings<T>,
 }
 
-/// Cause of a failed relay experiment; the safe command is applied.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum RelayFailure {
-    /// Too many bad samples; see [`Fallback`](super::Fallback). The value is the fault of the last
-    /// one.
-    BadSamples(Fault),
-    /// The output was further from the reference than `most_deviation`.
-    ///
-    /// Choose a smaller amplitude, a centre that holds the reference, or the other sign of the
-    /// amplitude.
-    OutputOutOfRange,
-    /// `longest_time` has passed and the relay has not completed a cycle.
-    ///
-    /// The amplitude does not move the output through the reference, its sign is wrong, or the time
-    /// is too short for two periods.
-    NoOscillation,
-    /// `longest_time` has passed and the cycles did not agree with each other.
-    ///
-    /// The time is too short, the noise exceeds the hysteresis, or a cycle has fewer than
-    /// `2/agreement` samples.
-    TimeOut,
-}
+crate::data! {
+    /// Cause of a failed relay experiment; the safe command is applied.
+    #[derive(Eq, Hash)]
+    #[non_exhaustive]
+    pub enum RelayFailure {
+        /// Too many bad samples; see [`Fallback`](super::Fallback). The value is the fault of the last
+        /// one.
+        BadSamples(Fault),
+        /// The output was further from the reference than `most_deviation`.
+        ///
+        /// Choose a smaller amplitude, a centre that holds the reference, or the other sign of the
+        /// amplitude.
+        OutputOutOfRange,
+        /// `longest_time` has passed and the relay has not completed a cycle.
+        ///
+        /// The amplitude does not move the output through the reference, its sign is wrong, or the time
+        /// is too short for two periods.
+        NoOscillation,
+        /// `longest_time` has passed and the cycles did not agree with each other.
+        ///
+        /// The time is too short, the noise exceeds the hysteresis, or a cycle has fewer than
+        /// `2/agreement` samples.
+        TimeOut,
+    }
 
-/// Phase of a relay experiment.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        rename_all = "kebab-case",
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum RelayPhase<T> {
-    /// The relay switches.
-    #[default]
-    Running,
-    /// A bad sample: the last command is held and no cycle ends.
-    Held(Fault),
-    /// The experiment has succeeded: the relay applies the centre.
-    Done(Ultimate<T>),
-    /// The experiment has failed: the safe command is applied until
-    /// [`RelayState::acknowledge`].
-    Failed(RelayFailure),
+    /// Phase of a relay experiment.
+    #[derive(Default)]
+    pub enum RelayPhase<T> {
+        /// The relay switches.
+        #[default]
+        Running,
+        /// A bad sample: the last command is held and no cycle ends.
+        Held(Fault),
+        /// The experiment has succeeded: the relay applies the centre.
+        Done(Ultimate<T>),
+        /// The experiment has failed: the safe command is applied until
+        /// [`RelayState::acknowledge`].
+        Failed(RelayFailure),
+    }
 }
 
 impl<T: Real> RelayPhase<T> {

@@ -4,64 +4,60 @@
 use crate::error::{must_be_finite, rarely};
 use crate::{Error, Real};
 
-/// The bad input of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum Fault {
-    /// `dt` is not finite.
-    Dt,
-    /// `dt` is zero or negative: time has not advanced.
-    DtNotPositive,
-    /// `dt` exceeds the longest `dt` of the configuration, or the stability limit of the law.
-    DtTooLong,
-    /// The reference, or its next value.
-    Reference,
-    /// The measured output.
-    Measured,
-    /// The measured velocity.
-    Velocity,
-    /// The feed-forward command.
-    FeedForward,
-    /// The command to resume from.
-    Command,
-    /// A regressor, counted from 0.
-    Regressor(u8),
-    /// Every input is finite, but the command could not be computed: an overflow.
-    Overflow,
-    /// The phase of a cycle lies outside 0 to 1, or has jumped.
-    Phase,
-}
+crate::data! {
+    /// The bad input of a step.
+    #[derive(Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Fault {
+        /// `dt` is not finite.
+        Dt,
+        /// `dt` is zero or negative: time has not advanced.
+        DtNotPositive,
+        /// `dt` exceeds the longest `dt` of the configuration, or the stability limit of the law.
+        DtTooLong,
+        /// The reference, or its next value.
+        Reference,
+        /// The measured output.
+        Measured,
+        /// The measured velocity.
+        Velocity,
+        /// The feed-forward command.
+        FeedForward,
+        /// The command to resume from.
+        Command,
+        /// A regressor, counted from 0.
+        Regressor(u8),
+        /// Every input is finite, but the command could not be computed: an overflow.
+        Overflow,
+        /// The phase of a cycle lies outside 0 to 1, or has jumped.
+        Phase,
+    }
 
-/// Result of a step.
-///
-/// ```text
-///           bad                fault counter ≥ after·weight
-///  Good ─────────────▶ Held ───────────────────────────────▶ Safe
-///   ▲ ◀───────────────  │                                      │
-///   │     good                                                 │ acknowledge()
-///   └───────────────────────────── good ─────────── returning ◀┘
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Status {
-    /// All inputs were good; the state has advanced.
-    Good,
-    /// A regressor was bad and its term was dropped; the loop is closed, and the estimates do not
-    /// change. For [`IterativeLearning`](crate::control::IterativeLearning): the error was
-    /// unusable, or the phase has jumped.
-    Degraded(Fault),
-    /// A bad sample: the state is unchanged, and the last good command is held.
-    Held(Fault),
-    /// Too many bad samples: the safe command is applied until
-    /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
+    /// Result of a step.
     ///
-    /// The value is the fault of the sample that brought the fault counter to its limit.
-    Safe(Fault),
+    /// ```text
+    ///           bad                fault counter ≥ after·weight
+    ///  Good ─────────────▶ Held ───────────────────────────────▶ Safe
+    ///   ▲ ◀───────────────  │                                      │
+    ///   │     good                                                 │ acknowledge()
+    ///   └───────────────────────────── good ─────────── returning ◀┘
+    /// ```
+    #[derive(Eq, Hash)]
+    pub enum Status {
+        /// All inputs were good; the state has advanced.
+        Good,
+        /// A regressor was bad and its term was dropped; the loop is closed, and the estimates do not
+        /// change. For [`IterativeLearning`](crate::control::IterativeLearning): the error was
+        /// unusable, or the phase has jumped.
+        Degraded(Fault),
+        /// A bad sample: the state is unchanged, and the last good command is held.
+        Held(Fault),
+        /// Too many bad samples: the safe command is applied until
+        /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
+        ///
+        /// The value is the fault of the sample that brought the fault counter to its limit.
+        Safe(Fault),
+    }
 }
 
 impl Status {
@@ -196,76 +192,71 @@ impl<T: Real> Fallback<T> {
 /// The error of a safe command outside the limits.
 pub(crate) const OUTSIDE: &str = "the safe command lies within the limits";
 
-/// Whether the loop is closed.
-///
-/// `repr(u8)`: the tag has a byte of its own, and the usual step compares it with zero. Merged
-/// with the bytes of the fault, the tag would need decoding first.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[repr(u8)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) enum Latch {
-    /// The loop is closed, and the fault counter is zero.
-    #[default]
-    Closed,
-    /// The safe command is applied, for this fault, until it is acknowledged.
-    Safe(Fault),
-    /// The fault is acknowledged: the next good sample starts from the applied command.
-    Returning,
-    /// The loop is closed, and a good sample reduces the fault counter: [`Held::may_step`].
-    Counting,
-    /// The loop is closed, and the next good sample of an adaptive law needs the drive's
-    /// response: [`Held::tell`].
-    Told,
-}
+crate::data! {
+    /// Whether the loop is closed.
+    ///
+    /// `repr(u8)`: the tag has a byte of its own, and the usual step compares it with zero. Merged
+    /// with the bytes of the fault, the tag would need decoding first.
+    #[derive(Default)]
+    #[repr(u8)]
+    pub(crate) enum Latch {
+        /// The loop is closed, and the fault counter is zero.
+        #[default]
+        Closed,
+        /// The safe command is applied, for this fault, until it is acknowledged.
+        Safe(Fault),
+        /// The fault is acknowledged: the next good sample starts from the applied command.
+        Returning,
+        /// The loop is closed, and a good sample reduces the fault counter: [`Held::may_step`].
+        Counting,
+        /// The loop is closed, and the next good sample of an adaptive law needs the drive's
+        /// response: [`Held::tell`].
+        Told,
+    }
 
-/// The drive's response to the last command.
-///
-/// A controller assumes that the drive applies its command. Report any other response between two
-/// steps, for example with an open safety relay, a current limit in the drive, or an inner loop at
-/// its limit. The slew-rate limit, anti-windup and a bumpless start then continue from the applied
-/// command.
-///
-/// ```
-/// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
-/// let limits = Limits::try_new(-20.0, 60.0)?.with_slew(100.0)?; // [N·m], [N·m/s]
-/// let pi = Pid::try_new(PidSettings::new(1.0, 10.0, limits, 0.005, Fallback::try_new(20, 0.0)?))?;
-/// let mut state = PidState::new();
-/// let at = PidInput::new(0.001, 20.0, 0.0);
-/// for _ in 0..2000 {
-///     pi.step(&mut state, &at);
-///     pi.applied(&mut state, Applied::Command(0.0)); // the drive is off
-/// }
-/// assert_eq!(pi.step(&mut state, &at).command, 0.1); // 100/s for 1 ms, from zero
-/// # Ok::<(), bowden::Error>(())
-/// ```
-///
-/// These methods accept the response: [`Pid::applied`](super::Pid::applied),
-/// [`AdaptiveState::applied`](super::AdaptiveState::applied),
-/// [`Controller::applied`](super::Controller::applied) and
-/// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. A
-/// [`DisturbanceObserver`](super::DisturbanceObserver) reads the command from `sent`.
-/// [`IterativeLearning`](super::IterativeLearning) reads `learns`.
-///
-/// Use `AsCommanded` if the drive deviates slightly from the command for a reason other than a
-/// limit (an offset, a measured current). `Command` with such a value would stop the integral until
-/// the difference is zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Applied<T> {
-    /// The drive applied the command.
-    AsCommanded,
-    /// The drive applied this command \[command unit\]; a number that is not finite is ignored.
-    Command(T),
-    /// The drive applied less than the command, by an unknown amount. The integral does not
-    /// rise.
-    AtUpperLimit,
-    /// The drive applied more than the command, by an unknown amount. The integral does not
-    /// fall.
-    AtLowerLimit,
+    /// The drive's response to the last command.
+    ///
+    /// A controller assumes that the drive applies its command. Report any other response between two
+    /// steps. Examples are an open safety relay, a current limit in the drive, and an inner loop at its
+    /// limit. The slew-rate limit, anti-windup and a bumpless start then continue from the applied
+    /// command.
+    ///
+    /// ```
+    /// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
+    /// let limits = Limits::try_new(-20.0, 60.0)?.with_slew(100.0)?; // [N·m], [N·m/s]
+    /// let pi = Pid::try_new(PidSettings::new(1.0, 10.0, limits, 0.005, Fallback::try_new(20, 0.0)?))?;
+    /// let mut state = PidState::new();
+    /// let at = PidInput::new(0.001, 20.0, 0.0);
+    /// for _ in 0..2000 {
+    ///     pi.step(&mut state, &at);
+    ///     pi.applied(&mut state, Applied::Command(0.0)); // the drive is off
+    /// }
+    /// assert_eq!(pi.step(&mut state, &at).command, 0.1); // 100/s for 1 ms, from zero
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    ///
+    /// These methods accept the response: [`Pid::applied`](super::Pid::applied),
+    /// [`AdaptiveState::applied`](super::AdaptiveState::applied),
+    /// [`Controller::applied`](super::Controller::applied) and
+    /// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. A
+    /// [`DisturbanceObserver`](super::DisturbanceObserver) reads the command from `sent`.
+    /// [`IterativeLearning`](super::IterativeLearning) reads `learns`.
+    ///
+    /// Use `AsCommanded` if the drive deviates slightly from the command for a reason other than a
+    /// limit (an offset, a measured current). `Command` with such a value would stop the integral until
+    /// the difference is zero.
+    pub enum Applied<T> {
+        /// The drive applied the command.
+        AsCommanded,
+        /// The drive applied this command \[command unit\]; a number that is not finite is ignored.
+        Command(T),
+        /// The drive applied less than the command, by an unknown amount. The integral does not
+        /// rise.
+        AtUpperLimit,
+        /// The drive applied more than the command, by an unknown amount. The integral does not
+        /// fall.
+        AtLowerLimit,
+    }
 }
 
 crate::checked::stored! {

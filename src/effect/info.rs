@@ -15,7 +15,6 @@ use crate::{Error, Real};
 /// assert_eq!(Effect::<f64>::from(Viscous).info().dimension, Dimension { channel: 1, time: -1, ..Dimension::default() });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Dimension {
     /// Exponent of the unit of the channel that the effect reads.
@@ -58,7 +57,6 @@ impl Dimension {
 
 /// How a regressor responds to a change of sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Parity {
     /// The regressor keeps its sign.
@@ -77,7 +75,6 @@ pub enum Parity {
 /// assert_eq!(parity.mirror, Parity::Even); // |v|: breaks the mirror symmetry of friction
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Symmetry {
     /// Under (x, v) → (−x, −v): all signed signals (motion, input, load, eta and output) change
@@ -90,7 +87,6 @@ pub struct Symmetry {
 
 /// One quantity of [`Inputs`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Quantity {
@@ -116,7 +112,6 @@ pub enum Quantity {
 
 /// The range of a shape parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Range {
     /// Any finite number.

@@ -3,48 +3,46 @@
 use super::Quantity;
 use crate::Real;
 
-/// Position, velocity and acceleration of one channel.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Motion<T> {
-    /// x \[channel unit\]
-    pub position: T,
-    /// v \[channel unit/s\]
-    pub velocity: T,
-    /// a \[channel unit/s²\]
-    pub acceleration: T,
-}
+crate::data! {
+    /// Position, velocity and acceleration of one channel.
+    #[derive(Default)]
+    pub struct Motion<T> {
+        /// x \[channel unit\]
+        pub position: T,
+        /// v \[channel unit/s\]
+        pub velocity: T,
+        /// a \[channel unit/s²\]
+        pub acceleration: T,
+    }
 
-/// The inputs of an effect at one sample.
-///
-/// ```
-/// use bowden::effect::{Effect, EffectState, Inputs, Motion, Viscous};
-/// let at = Inputs {
-///     motion: Motion { velocity: 2.0, ..Motion::default() },
-///     ..Inputs::default()
-/// };
-/// let mut state = EffectState::default();
-/// assert_eq!(Effect::from(Viscous).regressor(&mut state, &at), 2.0);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Inputs<T> {
-    /// Time since the previous sample \[s\].
-    pub dt: T,
-    /// Time since the start of the record \[s\].
-    pub time: T,
-    /// The channel that the effect reads.
-    pub motion: Motion<T>,
-    /// The transmission's input, x or `tau_i`, with its rates.
-    pub input: Motion<T>,
-    /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
-    pub load: T,
-    /// The hysteresis state; 0 without hysteresis.
-    pub eta: T,
-    /// The sum of all terms before this effect; only output stages read it.
-    pub output: T,
+    /// The inputs of an effect at one sample.
+    ///
+    /// ```
+    /// use bowden::effect::{Effect, EffectState, Inputs, Motion, Viscous};
+    /// let at = Inputs {
+    ///     motion: Motion { velocity: 2.0, ..Motion::default() },
+    ///     ..Inputs::default()
+    /// };
+    /// let mut state = EffectState::default();
+    /// assert_eq!(Effect::from(Viscous).regressor(&mut state, &at), 2.0);
+    /// ```
+    #[derive(Default)]
+    pub struct Inputs<T> {
+        /// Time since the previous sample \[s\].
+        pub dt: T,
+        /// Time since the start of the record \[s\].
+        pub time: T,
+        /// The channel that the effect reads.
+        pub motion: Motion<T>,
+        /// The transmission's input, x or `tau_i`, with its rates.
+        pub input: Motion<T>,
+        /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
+        pub load: T,
+        /// The hysteresis state; 0 without hysteresis.
+        pub eta: T,
+        /// The sum of all terms before this effect; only output stages read it.
+        pub output: T,
+    }
 }
 
 impl<T: Real> Inputs<T> {

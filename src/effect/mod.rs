@@ -37,18 +37,10 @@ macro_rules! effects {
     ($($module:ident::$effect:ident $(<$T:ident>)?,)+) => {
         $(pub use $module::$effect;)+
 
-        #[derive(Debug, Clone, Copy, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-        #[cfg_attr(feature = "serde", serde(
-            rename_all = "kebab-case",
-            bound(
-                serialize = "T: Real + serde::Serialize",
-                deserialize = "T: Real + serde::Deserialize<'de>"
-            )
-        ))]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        enum Kind<T> {
-            $($effect $(($effect<$T>))?,)+
+        crate::data! {
+            enum Kind<T> {
+                $($effect $(($effect<$T>))?,)+
+            }
         }
 
         /// All effects, in the order in which compact forms number them.

@@ -96,23 +96,23 @@ crate::checked::stored_as! {
     }
 }
 
-/// The state eta with its derivatives with respect to the parameters and the initial state.
-///
-/// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Sensitivity<T> {
-    /// The state, in [-1, 1].
-    pub eta: T,
-    /// Derivative with respect to rho [input unit].
-    pub d_rho: T,
-    /// Derivative with respect to sigma.
-    pub d_sigma: T,
-    /// Derivative with respect to n.
-    pub d_n: T,
-    /// Derivative with respect to the initial state.
-    pub d_eta0: T,
+crate::data! {
+    /// The state eta with its derivatives with respect to the parameters and the initial state.
+    ///
+    /// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances it.
+    #[derive(Default)]
+    pub struct Sensitivity<T> {
+        /// The state, in [-1, 1].
+        pub eta: T,
+        /// Derivative with respect to rho [input unit].
+        pub d_rho: T,
+        /// Derivative with respect to sigma.
+        pub d_sigma: T,
+        /// Derivative with respect to n.
+        pub d_n: T,
+        /// Derivative with respect to the initial state.
+        pub d_eta0: T,
+    }
 }
 
 impl<T: Real> Sensitivity<T> {

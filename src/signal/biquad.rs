@@ -61,25 +61,20 @@ pub struct Biquad<T> {
     damping: T,
 }
 
-/// Design parameters of a filter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub(super) struct Design<T> {
-    response: Response,
-    frequency: T,
-    q: T,
-    sample_time: T,
-}
+crate::data! {
+    /// Design parameters of a filter.
+    pub(super) struct Design<T> {
+        response: Response,
+        frequency: T,
+        q: T,
+        sample_time: T,
+    }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-enum Response {
-    LowPass,
-    Notch,
+    #[derive(Eq)]
+    enum Response {
+        LowPass,
+        Notch,
+    }
 }
 
 crate::checked::stored! {

@@ -66,31 +66,27 @@ crate::checked::stored! {
     }
 }
 
-/// Validity of a velocity from [`EdgeVelocity`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum EdgeStatus {
-    /// Two counts and the time between them are known.
-    Good,
-    /// Fewer than two counts are known: after the start, or after an unknown time.
-    Settling,
-    /// No count for longer than the longest gap: the velocity is zero.
-    Stopped,
-    /// A bad sample: the last velocity is held.
-    Held(RatesFault),
-}
+crate::data! {
+    /// Validity of a velocity from [`EdgeVelocity`].
+    #[derive(Eq, Hash)]
+    pub enum EdgeStatus {
+        /// Two counts and the time between them are known.
+        Good,
+        /// Fewer than two counts are known: after the start, or after an unknown time.
+        Settling,
+        /// No count for longer than the longest gap: the velocity is zero.
+        Stopped,
+        /// A bad sample: the last velocity is held.
+        Held(RatesFault),
+    }
 
-/// Output of an [`EdgeVelocity`]'s step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct EdgeVelocityOutput<T> {
-    /// The velocity \[channel unit/s\]: finite, and zero until two counts are known.
-    pub velocity: T,
-    /// Validity of the velocity.
-    pub status: EdgeStatus,
+    /// Output of an [`EdgeVelocity`]'s step.
+    pub struct EdgeVelocityOutput<T> {
+        /// The velocity \[channel unit/s\]: finite, and zero until two counts are known.
+        pub velocity: T,
+        /// Validity of the velocity.
+        pub status: EdgeStatus,
+    }
 }
 
 crate::checked::stored! {

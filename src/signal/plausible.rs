@@ -44,21 +44,20 @@ crate::checked::stored! {
     }
 }
 
-/// Why a sample is implausible.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum Implausible {
-    /// The sample is NaN or infinite.
-    NotFinite,
-    /// The sample lies outside the range.
-    OutOfRange,
-    /// The sample is further from the last plausible sample than the rate allows.
-    TooFast,
-    /// The sample has kept the same value for too long while the machine moved.
-    Stuck,
+crate::data! {
+    /// Why a sample is implausible.
+    #[derive(Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Implausible {
+        /// The sample is NaN or infinite.
+        NotFinite,
+        /// The sample lies outside the range.
+        OutOfRange,
+        /// The sample is further from the last plausible sample than the rate allows.
+        TooFast,
+        /// The sample has kept the same value for too long while the machine moved.
+        Stuck,
+    }
 }
 
 /// Result of the check of a sample.

@@ -76,49 +76,42 @@ crate::checked::stored! {
     }
 }
 
-/// Why [`Rates`] could not use a sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum RatesFault {
-    /// The position is not finite.
-    Position,
-    /// `dt` is not finite.
-    Dt,
-    /// `dt` is zero or negative: time has not advanced.
-    DtNotPositive,
-    /// All inputs are finite, but a rate or the unwrapped position overflows.
-    Overflow,
-}
+crate::data! {
+    /// Why [`Rates`] could not use a sample.
+    #[derive(Eq, Hash)]
+    #[non_exhaustive]
+    pub enum RatesFault {
+        /// The position is not finite.
+        Position,
+        /// `dt` is not finite.
+        Dt,
+        /// `dt` is zero or negative: time has not advanced.
+        DtNotPositive,
+        /// All inputs are finite, but a rate or the unwrapped position overflows.
+        Overflow,
+    }
 
-/// Validity of the motion in a [`RatesOutput`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum RatesStatus {
-    /// A good sample, and the rates have settled.
-    Good,
-    /// A good sample, but the rates started from zero less than five time constants ago.
-    Settling,
-    /// A good position after an unknown time: the rates are held.
-    Resumed,
-    /// A bad sample: the last good motion is held.
-    Held(RatesFault),
-}
+    /// Validity of the motion in a [`RatesOutput`].
+    #[derive(Eq, Hash)]
+    pub enum RatesStatus {
+        /// A good sample, and the rates have settled.
+        Good,
+        /// A good sample, but the rates started from zero less than five time constants ago.
+        Settling,
+        /// A good position after an unknown time: the rates are held.
+        Resumed,
+        /// A bad sample: the last good motion is held.
+        Held(RatesFault),
+    }
 
-/// Output of a [`Rates`]' step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RatesOutput<T> {
-    /// Position (unwrapped), velocity and acceleration; finite, zero before the first good
-    /// sample.
-    pub motion: Motion<T>,
-    /// Whether the motion is new, and its rates have settled.
-    pub status: RatesStatus,
+    /// Output of a [`Rates`]' step.
+    pub struct RatesOutput<T> {
+        /// Position (unwrapped), velocity and acceleration; finite, zero before the first good
+        /// sample.
+        pub motion: Motion<T>,
+        /// Whether the motion is new, and its rates have settled.
+        pub status: RatesStatus,
+    }
 }
 
 crate::checked::stored! {

@@ -4,33 +4,28 @@ use crate::control::law;
 use crate::signal::Compensated;
 use crate::Real;
 
-/// Leakage of an estimate back to its prior, which prevents drift.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(rename_all = "kebab-case", deny_unknown_fields)
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Leakage<T> {
-    /// No leakage: only the bounds limit the estimate.
-    None,
-    /// Leakage at `rate` \[1/s\] at all times: the sigma of (24)-(26).
-    Constant {
-        /// Leakage \[1/s\], not negative.
-        rate: T,
-    },
-    /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
-    ///
-    /// The rate rises from zero at `bound` to `rate` at twice the bound. This is the switching
-    /// sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It causes no
-    /// bias if the true value lies within the bound.
-    Switching {
-        /// Leakage beyond twice the bound \[1/s\], not negative.
-        rate: T,
-        /// Distance from the prior without leakage \[unit of the estimate\], above zero.
-        bound: T,
-    },
+crate::data! {
+    /// Leakage of an estimate back to its prior, which prevents drift.
+    pub enum Leakage<T> {
+        /// No leakage: only the bounds limit the estimate.
+        None,
+        /// Leakage at `rate` \[1/s\] at all times: the sigma of (24)-(26).
+        Constant {
+            /// Leakage \[1/s\], not negative.
+            rate: T,
+        },
+        /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
+        ///
+        /// The rate rises from zero at `bound` to `rate` at twice the bound. This leakage is the
+        /// switching sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It
+        /// causes no bias if the true value lies within the bound.
+        Switching {
+            /// Leakage beyond twice the bound \[1/s\], not negative.
+            rate: T,
+            /// Distance from the prior without leakage \[unit of the estimate\], above zero.
+            bound: T,
+        },
+    }
 }
 
 impl<T: Real> Leakage<T> {
@@ -72,52 +67,41 @@ impl<T: Real> Leakage<T> {
     }
 }
 
-/// Adaptation of one estimate `p`: (24)-(26) in sampled time, with bounds.
-///
-/// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then clamped to `[low, high]`. Here v is
-/// the input from the law (`-lambda·s·x` for a regressor x). The leakage is implicit, so it cannot
-/// overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does not depend
-/// on h. The update is computed as an increment and summed with compensation, so a slow leakage
-/// does not stall in f32.
-///
-/// ```
-/// use bowden::control::{Estimator, Leakage};
-/// // Viscous friction [N·m·s/rad]: 2.7 from the bench, bounds 0 and 6.
-/// let velocity = Estimator {
-///     gain: 5e-4,
-///     leakage: Leakage::Constant { rate: 0.01 },
-///     prior: 2.7,
-///     ..Estimator::fixed(2.7).within(0.0, 6.0)
-/// };
-/// assert_eq!((velocity.initial, velocity.low, velocity.high), (2.7, 0.0, 6.0));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        deny_unknown_fields,
-        default,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct Estimator<T> {
-    /// Initial value of the estimate \[unit of the estimate\], within the bounds.
-    pub initial: T,
-    /// Lower bound \[unit of the estimate\].
-    pub low: T,
-    /// Upper bound \[unit of the estimate\].
-    pub high: T,
-    /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
-    pub gain: T,
-    /// Leakage to the prior.
-    pub leakage: Leakage<T>,
-    /// Prior, the target of the leakage \[unit of the estimate\]; zero in Nguyen et al. (2018).
-    pub prior: T,
+crate::data! {
+    /// Adaptation of one estimate `p`: (24)-(26) in sampled time, with bounds.
+    ///
+    /// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then clamped to `[low, high]`. Here v is
+    /// the input from the law (`-lambda·s·x` for a regressor x). The leakage is implicit, so it cannot
+    /// overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does not depend
+    /// on h. The update is computed as an increment and summed with compensation, so a slow leakage
+    /// does not stall in f32.
+    ///
+    /// ```
+    /// use bowden::control::{Estimator, Leakage};
+    /// // Viscous friction [N·m·s/rad]: 2.7 from the bench, bounds 0 and 6.
+    /// let velocity = Estimator {
+    ///     gain: 5e-4,
+    ///     leakage: Leakage::Constant { rate: 0.01 },
+    ///     prior: 2.7,
+    ///     ..Estimator::fixed(2.7).within(0.0, 6.0)
+    /// };
+    /// assert_eq!((velocity.initial, velocity.low, velocity.high), (2.7, 0.0, 6.0));
+    /// ```
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub struct Estimator<T> {
+        /// Initial value of the estimate \[unit of the estimate\], within the bounds.
+        pub initial: T,
+        /// Lower bound \[unit of the estimate\].
+        pub low: T,
+        /// Upper bound \[unit of the estimate\].
+        pub high: T,
+        /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
+        pub gain: T,
+        /// Leakage to the prior.
+        pub leakage: Leakage<T>,
+        /// Prior, the target of the leakage \[unit of the estimate\]; zero in Nguyen et al. (2018).
+        pub prior: T,
+    }
 }
 
 impl<T: Real> Estimator<T> {

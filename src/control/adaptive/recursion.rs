@@ -4,15 +4,15 @@ use super::SmoothSign;
 use crate::control::law;
 use crate::Real;
 
-/// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ErrorState<T> {
-    /// Filtered error s = e + lambda·z \[N·m\], (18).
-    pub s: T,
-    /// Accumulated error z \[N·m·s\], (17).
-    pub z: T,
+crate::data! {
+    /// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
+    #[derive(Default)]
+    pub struct ErrorState<T> {
+        /// Filtered error s = e + lambda·z \[N·m\], (18).
+        pub s: T,
+        /// Accumulated error z \[N·m·s\], (17).
+        pub z: T,
+    }
 }
 
 /// The disturbances that act on the errors in one step of the [`LagRecursion`].

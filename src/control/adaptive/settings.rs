@@ -7,127 +7,107 @@ use crate::control::{Fallback, Limits};
 use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
-/// Treatment of the error's rate in the law: each form is for one kind of plant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(rename_all = "kebab-case", deny_unknown_fields)
-)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Form<T> {
-    /// (23) as published, with a filtered difference of the error.
-    ///
-    /// For a plant with inertia, whose output cannot follow the command at once. On a static
-    /// plant with one sample of delay this form diverges unless `g·(k + 2/(lambda·h)) < 1`: at
-    /// 1 kHz g would have to be 0.004.
-    AsPublished {
-        /// Time constant of the filter of the error's rate \[s\]: 2 to 20 ms.
-        time_constant: T,
-    },
-    /// The law solved for the error's rate: the command follows through a lag of 1/lambda.
-    ///
-    /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that responds within a sample (a stiff
-    /// drive, a blocked joint), this form is exactly (22). On a plant with inertia it diverges.
-    FirstOrder {
-        /// Longest intended sample time \[s\].
-        step: T,
-        /// Upper bound on the plant's gain alpha \[N·m/command unit\].
-        plant_gain: T,
-    },
-}
+crate::data! {
+    /// Treatment of the error's rate in the law: each form is for one kind of plant.
+    pub enum Form<T> {
+        /// (23) as published, with a filtered difference of the error.
+        ///
+        /// For a plant with inertia, whose output cannot follow the command at once. On a static
+        /// plant with one sample of delay this form diverges unless `g·(k + 2/(lambda·h)) < 1`: at
+        /// 1 kHz g would have to be 0.004.
+        AsPublished {
+            /// Time constant of the filter of the error's rate \[s\]: 2 to 20 ms.
+            time_constant: T,
+        },
+        /// The law solved for the error's rate: the command follows through a lag of 1/lambda.
+        ///
+        /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that responds within a sample (a
+        /// stiff drive, a blocked joint) this form is (22) exactly. On a plant with inertia it
+        /// diverges.
+        FirstOrder {
+            /// Longest intended sample time \[s\].
+            step: T,
+            /// Upper bound on the plant's gain alpha \[N·m/command unit\].
+            plant_gain: T,
+        },
+    }
 
-/// Response to a regressor that is not finite; a NaN from an encoder need not open the torque loop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum OnMissing {
-    /// A bad sample: the command is held.
-    #[default]
-    Hold,
-    /// The command of this sample omits the regressor's term, all estimates stay unchanged, and the
-    /// torque loop stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
-    DropRegressor,
-}
+    /// Response to a regressor that is not finite; a NaN from an encoder need not open the torque loop.
+    #[derive(Eq, Default)]
+    pub enum OnMissing {
+        /// A bad sample: the command is held.
+        #[default]
+        Hold,
+        /// The command of this sample omits the regressor's term, all estimates stay unchanged, and the
+        /// torque loop stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
+        DropRegressor,
+    }
 
-/// Settings of an [`Adaptive`](super::Adaptive) law over `N` regressors, (19)-(26).
-///
-/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
-/// remove these safeguards. A stored form for simulation states them as `unlimited` does.
-///
-/// ```
-/// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
-/// let settings = AdaptiveSettings {
-///     beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
-///     delta: Estimator::fixed(1.0).within(0.0, 7.0).adapting(6e-3, 0.01),
-///     ..AdaptiveSettings::<f64, 2>::unlimited(
-///         Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, // \[s\], [N·m/command unit]
-///         24.0, 8.0, 0.05,
-///     )
-/// };
-/// // 1 ms is too long with this epsilon: the constructor refuses it.
-/// assert!(Adaptive::try_new(settings).is_err());
-/// assert!((settings.largest_step().unwrap() - 635e-6).abs() < 1e-6);
-/// let wider = AdaptiveSettings { epsilon: 0.1, ..settings };
-/// assert!(Adaptive::try_new(wider).is_ok());
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        deny_unknown_fields,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct AdaptiveSettings<T, const N: usize> {
-    /// Form as published, or first-order form.
-    pub form: Form<T>,
-    /// Control gain k, above zero.
-    pub gain: T,
-    /// lambda \[1/s\], above zero: weight of the accumulated error, (18).
-    pub lambda: T,
-    /// epsilon \[N·m\], above zero: width of the smooth sign.
+    /// Settings of an [`Adaptive`](super::Adaptive) law over `N` regressors, (19)-(26).
     ///
-    /// With one sample of delay, choose at least a fortieth of the largest delta_hat; otherwise the
-    /// command chatters.
-    pub epsilon: T,
-    /// The smooth sign function.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub smooth_sign: SmoothSign,
-    /// Estimate of 1/alpha \[command unit/(N·m)\], (24).
-    pub beta: Estimator<T>,
-    /// Estimate of the bound on the disturbance \[N·m\], (25).
-    pub delta: Estimator<T>,
-    /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
-    #[cfg_attr(feature = "serde", serde(with = "super::list"))]
-    pub theta: [Estimator<T>; N],
-    /// Largest magnitude of the accumulated error z \[N·m·s\].
-    #[cfg_attr(feature = "serde", serde(default = "T::max_value"))]
-    pub z_limit: T,
-    /// Whether the estimates are frozen.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub frozen: bool,
-    /// Response of each regressor to a value that is not finite.
-    #[cfg_attr(
-        feature = "serde",
-        serde(with = "super::list", default = "all_hold::<N>")
-    )]
-    pub missing: [OnMissing; N],
-    /// Range and slew-rate limit of the command.
-    pub limits: Limits<T>,
-    /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+    /// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
+    /// remove these safeguards. A stored form for simulation states them as `unlimited` does.
     ///
-    /// The first-order form also rejects a `dt` longer than
-    /// [`largest_step`](Self::largest_step).
-    pub longest_dt: T,
-    /// Fallback after repeated bad samples.
-    pub fallback: Fallback<T>,
+    /// ```
+    /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
+    /// let settings = AdaptiveSettings {
+    ///     beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
+    ///     delta: Estimator::fixed(1.0).within(0.0, 7.0).adapting(6e-3, 0.01),
+    ///     ..AdaptiveSettings::<f64, 2>::unlimited(
+    ///         Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, // \[s\], [N·m/command unit]
+    ///         24.0, 8.0, 0.05,
+    ///     )
+    /// };
+    /// // 1 ms is too long with this epsilon: the constructor refuses it.
+    /// assert!(Adaptive::try_new(settings).is_err());
+    /// assert!((settings.largest_step().unwrap() - 635e-6).abs() < 1e-6);
+    /// let wider = AdaptiveSettings { epsilon: 0.1, ..settings };
+    /// assert!(Adaptive::try_new(wider).is_ok());
+    /// ```
+    pub struct AdaptiveSettings<T, const N: usize> {
+        /// Form as published, or first-order form.
+        pub form: Form<T>,
+        /// Control gain k, above zero.
+        pub gain: T,
+        /// lambda \[1/s\], above zero: weight of the accumulated error, (18).
+        pub lambda: T,
+        /// epsilon \[N·m\], above zero: width of the smooth sign.
+        ///
+        /// With one sample of delay, choose at least a fortieth of the largest delta_hat.
+        /// Otherwise the command chatters.
+        pub epsilon: T,
+        /// The smooth sign function.
+        #[cfg_attr(feature = "serde", serde(default))]
+        pub smooth_sign: SmoothSign,
+        /// Estimate of 1/alpha \[command unit/(N·m)\], (24).
+        pub beta: Estimator<T>,
+        /// Estimate of the bound on the disturbance \[N·m\], (25).
+        pub delta: Estimator<T>,
+        /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
+        #[cfg_attr(feature = "serde", serde(with = "super::list"))]
+        pub theta: [Estimator<T>; N],
+        /// Largest magnitude of the accumulated error z \[N·m·s\].
+        #[cfg_attr(feature = "serde", serde(default = "T::max_value"))]
+        pub z_limit: T,
+        /// Whether the estimates are frozen.
+        #[cfg_attr(feature = "serde", serde(default))]
+        pub frozen: bool,
+        /// Response of each regressor to a value that is not finite.
+        #[cfg_attr(
+            feature = "serde",
+            serde(with = "super::list", default = "all_hold::<N>")
+        )]
+        pub missing: [OnMissing; N],
+        /// Range and slew-rate limit of the command.
+        pub limits: Limits<T>,
+        /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+        ///
+        /// The first-order form also rejects a `dt` longer than
+        /// [`largest_step`](Self::largest_step).
+        pub longest_dt: T,
+        /// Fallback after repeated bad samples.
+        pub fallback: Fallback<T>,
+    }
 }
 
 #[cfg(feature = "serde")]

@@ -3,28 +3,27 @@
 use crate::control::law;
 use crate::Real;
 
-/// The smooth sign `T(x)` of (23) and (25), with `x = s/epsilon`.
-///
-/// Both functions are odd and non-decreasing, have a slope of at most one and stay within
-/// `[-1, 1]`; the theorems need no more. The clamped line costs two comparisons and has a smaller
-/// residual: the maximum of `x·(1 - T(x))` is 1/4 instead of 0.2785.
-///
-/// ```
-/// use bowden::control::SmoothSign;
-/// assert_eq!(SmoothSign::Clamp.of(0.5), 0.5);
-/// assert_eq!(SmoothSign::Clamp.of(-7.0), -1.0);
-/// assert!((SmoothSign::Tanh.of(0.5_f64) - 0.462_117).abs() < 1e-6);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum SmoothSign {
-    /// `tanh(x)`.
-    #[default]
-    Tanh,
-    /// `x` within `[-1, 1]`.
-    Clamp,
+crate::data! {
+    /// The smooth sign `T(x)` of (23) and (25), with `x = s/epsilon`.
+    ///
+    /// Both functions are odd and non-decreasing, have a slope of at most one and stay within
+    /// `[-1, 1]`; the theorems need no more. The clamped line costs two comparisons and has a smaller
+    /// residual: the maximum of `x·(1 - T(x))` is 1/4 instead of 0.2785.
+    ///
+    /// ```
+    /// use bowden::control::SmoothSign;
+    /// assert_eq!(SmoothSign::Clamp.of(0.5), 0.5);
+    /// assert_eq!(SmoothSign::Clamp.of(-7.0), -1.0);
+    /// assert!((SmoothSign::Tanh.of(0.5_f64) - 0.462_117).abs() < 1e-6);
+    /// ```
+    #[derive(Eq, Hash, Default)]
+    pub enum SmoothSign {
+        /// `tanh(x)`.
+        #[default]
+        Tanh,
+        /// `x` within `[-1, 1]`.
+        Clamp,
+    }
 }
 
 /// Largest `x·(1 - tanh x)`: Lambert's W(1/e), at x = 0.639232. The paper's 0.2785.

@@ -129,14 +129,13 @@ crate::checked::stored! {
     }
 }
 
-/// A limit of the drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) enum End {
-    Upper,
-    Lower,
+crate::data! {
+    /// A limit of the drive.
+    #[derive(Eq)]
+    pub(crate) enum End {
+        Upper,
+        Lower,
+    }
 }
 
 impl End {

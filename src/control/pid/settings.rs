@@ -6,25 +6,23 @@ use crate::control::{Fallback, Limits};
 use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
-/// The signal that the gain `k_d` multiplies.
-///
-/// ```
-/// use bowden::control::DerivativeSource;
-/// assert_eq!(DerivativeSource::on_error(), DerivativeSource::Rate { weight: 1.0 });
-/// assert_eq!(DerivativeSource::on_measurement(), DerivativeSource::Rate { weight: 0.0 });
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum DerivativeSource<T> {
-    /// The filtered derivative of `y − c·y_r`, as in PID (14).
-    Rate {
-        /// Set-point weight c within 0..=1: 1 means the error, 0 the measurement.
-        weight: T,
-    },
-    /// The measured distal velocity, unfiltered, as in PIV (16).
-    Velocity,
+crate::data! {
+    /// The signal that the gain `k_d` multiplies.
+    ///
+    /// ```
+    /// use bowden::control::DerivativeSource;
+    /// assert_eq!(DerivativeSource::on_error(), DerivativeSource::Rate { weight: 1.0 });
+    /// assert_eq!(DerivativeSource::on_measurement(), DerivativeSource::Rate { weight: 0.0 });
+    /// ```
+    pub enum DerivativeSource<T> {
+        /// The filtered derivative of `y − c·y_r`, as in PID (14).
+        Rate {
+            /// Set-point weight c within 0..=1: 1 means the error, 0 the measurement.
+            weight: T,
+        },
+        /// The measured distal velocity, unfiltered, as in PIV (16).
+        Velocity,
+    }
 }
 
 impl<T: Real> DerivativeSource<T> {
@@ -40,144 +38,128 @@ impl<T: Real> DerivativeSource<T> {
     }
 }
 
-/// Anti-windup: limits the integral while the command is limited.
-///
-/// The command is limited by the range or by the slew-rate limit, unless a variant states
-/// otherwise.
-///
-/// ```
-/// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
-/// let integral = |anti_windup| {
-///     let limits = Limits::try_new(-10.0, 10.0)?;
-///     let pid = Pid::try_new(PidSettings { anti_windup, limits, ..PidSettings::unlimited(2.0, 5.0) })?;
-///     let mut state = PidState::new();
-///     for _ in 0..1000 {
-///         pid.step(&mut state, &PidInput::new(0.001, 8.0, 0.0)); // the demand is 16 or more
-///     }
-///     Ok::<f64, bowden::Error>(state.integral())
-/// };
-/// assert!((integral(AntiWindup::None)? - 40.0).abs() < 1e-9);
-/// assert_eq!(integral(AntiWindup::Clamp)?, 10.0);
-/// assert_eq!(integral(AntiWindup::Conditional)?, 0.0);
-/// // Back-calculation removes the part that the limits cut off.
-/// assert!(integral(AntiWindup::BackCalculation { tracking_time: 0.05 })? < 0.0);
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum AntiWindup<T> {
-    /// No anti-windup: the integral winds up.
-    None,
-    /// The integral term stays within the range of the command.
+crate::data! {
+    /// Anti-windup: limits the integral while the command is limited.
     ///
-    /// The range is widened to include zero and the value that, with the other terms, fills it.
-    Clamp,
-    /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
+    /// The command is limited by the range or by the slew-rate limit, unless a variant states
+    /// otherwise.
     ///
-    /// At the next sample, `dt/(T_t + dt)` times the part that was cut off enters the integral.
-    /// With the other terms at rest it decays by `T_t/(T_t + dt)` per sample, like `e^(−t/T_t)` for
-    /// a short dt, and never overshoots.
-    BackCalculation {
-        /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
-        tracking_time: T,
-    },
-    /// A change that would take the command beyond its range is cut to the value that fills the
-    /// range.
-    ///
-    /// A change away from that limit acts in full, so the integral unwinds. The part that the
-    /// slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`: if the slew-rate limit
-    /// counted as a range, the integral would stop while the command moves.
-    Conditional,
-}
+    /// ```
+    /// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
+    /// let integral = |anti_windup| {
+    ///     let limits = Limits::try_new(-10.0, 10.0)?;
+    ///     let pid = Pid::try_new(PidSettings { anti_windup, limits, ..PidSettings::unlimited(2.0, 5.0) })?;
+    ///     let mut state = PidState::new();
+    ///     for _ in 0..1000 {
+    ///         pid.step(&mut state, &PidInput::new(0.001, 8.0, 0.0)); // the demand is 16 or more
+    ///     }
+    ///     Ok::<f64, bowden::Error>(state.integral())
+    /// };
+    /// assert!((integral(AntiWindup::None)? - 40.0).abs() < 1e-9);
+    /// assert_eq!(integral(AntiWindup::Clamp)?, 10.0);
+    /// assert_eq!(integral(AntiWindup::Conditional)?, 0.0);
+    /// // Back-calculation removes the part that the limits cut off.
+    /// assert!(integral(AntiWindup::BackCalculation { tracking_time: 0.05 })? < 0.0);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub enum AntiWindup<T> {
+        /// No anti-windup: the integral winds up.
+        None,
+        /// The integral term stays within the range of the command. This range is widened to include
+        /// zero and the value that, with the other terms, fills the range.
+        Clamp,
+        /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
+        ///
+        /// At the next sample, `dt/(T_t + dt)` times the part that was cut off enters the integral.
+        /// With the other terms at rest it decays by `T_t/(T_t + dt)` per sample, like `e^(−t/T_t)` for
+        /// a short dt, and never overshoots.
+        BackCalculation {
+            /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
+            tracking_time: T,
+        },
+        /// A change that would take the command beyond its range is cut to the value that fills the
+        /// range.
+        ///
+        /// A change away from that limit acts in full, so the integral unwinds. The part that the
+        /// slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`. If the slew-rate limit
+        /// counted as a range, the integral would stop while the command moves.
+        Conditional,
+    }
 
-/// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
-///
-/// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
-/// remove these safeguards. A stored form for simulation states them as `unlimited` does.
-///
-/// ```
-/// use bowden::control::{DerivativeSource, Fallback, Limits, Pid, PidSettings};
-/// let pid = Pid::try_new(PidSettings {
-///     k_d: 2.0,
-///     derivative_time: 0.1, // [s]
-///     damping: DerivativeSource::on_measurement(),
-///     ..PidSettings::new(
-///         30.0,
-///         18.0_f64,
-///         Limits::try_new(-20.0, 60.0)?, // [N·m]
-///         0.005,                         // longest dt [s]
-///         Fallback::try_new(20, 0.0)?,   // after 20 bad samples: [N·m]
-///     )
-/// })?;
-/// assert_eq!(pid.settings().k_d, 2.0);
-/// # Ok::<(), bowden::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        deny_unknown_fields,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct PidSettings<T> {
-    /// Proportional gain \[command unit/output unit\]; finite.
-    pub k_p: T,
-    /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the sign of `k_p`.
+    /// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
     ///
-    /// **With 0 there is no integral.** An existing integral (from another law, or from a start
-    /// at a given command) returns to zero with a time constant of 1 s. The command moves to
-    /// the other terms without a jump.
-    pub k_i: T,
-    /// Gain of the damping; finite. With [`DerivativeSource::Rate`] it must have the sign of
-    /// `k_p` (and of `k_i`).
+    /// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
+    /// remove these safeguards. A stored form for simulation states them as `unlimited` does.
     ///
-    /// The unit is \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing
-    /// is filtered.
-    #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
-    pub k_d: T,
-    /// The signal that `k_d` multiplies.
-    #[cfg_attr(feature = "serde", serde(default = "DerivativeSource::on_measurement"))]
-    pub damping: DerivativeSource<T>,
-    /// Time constant of the derivative filter, zero (no filter) or above \[s\].
-    #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
-    pub derivative_time: T,
-    /// Set-point weight b of the proportional term, within 0..=1.
-    #[cfg_attr(feature = "serde", serde(default = "T::one"))]
-    pub setpoint_weight: T,
-    /// Anti-windup method.
-    #[cfg_attr(feature = "serde", serde(default = "conditional"))]
-    pub anti_windup: AntiWindup<T>,
-    /// Largest magnitude of the integral term, above zero \[command unit\].
-    #[cfg_attr(feature = "serde", serde(default = "none"))]
-    pub integral_limit: Option<T>,
-    /// The integral is frozen while `|e|` is at most this value, zero or above \[output unit\].
-    ///
-    /// With static friction, an integral winds up until the output jumps past the reference, and
-    /// the cycle repeats (hunting). A deadband that is wider than this jump prevents hunting.
-    #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
-    pub deadband: T,
-    /// Period of an output that wraps, above zero \[output unit\], such as 360°.
-    ///
-    /// The error and the changes of the output are then measured along the shorter way round,
-    /// within half a period. A period requires the full set-point weight b = 1, and a c of 0 or 1.
-    #[cfg_attr(feature = "serde", serde(default = "none"))]
-    pub period: Option<T>,
-    /// Range and slew-rate limit of the command.
-    pub limits: Limits<T>,
-    /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
-    ///
-    /// A longer `dt` (a wrapped counter, a starved task) is a bad sample.
-    pub longest_dt: T,
-    /// Fallback after repeated bad samples; its safe command must lie within `limits`.
-    pub fallback: Fallback<T>,
+    /// ```
+    /// use bowden::control::{DerivativeSource, Fallback, Limits, Pid, PidSettings};
+    /// let pid = Pid::try_new(PidSettings {
+    ///     k_d: 2.0,
+    ///     derivative_time: 0.1, // [s]
+    ///     damping: DerivativeSource::on_measurement(),
+    ///     ..PidSettings::new(
+    ///         30.0,
+    ///         18.0_f64,
+    ///         Limits::try_new(-20.0, 60.0)?, // [N·m]
+    ///         0.005,                         // longest dt [s]
+    ///         Fallback::try_new(20, 0.0)?,   // after 20 bad samples: [N·m]
+    ///     )
+    /// })?;
+    /// assert_eq!(pid.settings().k_d, 2.0);
+    /// # Ok::<(), bowden::Error>(())
+    /// ```
+    pub struct PidSettings<T> {
+        /// Proportional gain \[command unit/output unit\]; finite.
+        pub k_p: T,
+        /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the sign of `k_p`.
+        ///
+        /// **With 0 there is no integral.** An existing integral (from another law, or from a start
+        /// at a given command) returns to zero with a time constant of 1 s. The command moves to
+        /// the other terms without a jump.
+        pub k_i: T,
+        /// Gain of the damping; finite. With [`DerivativeSource::Rate`] it must have the sign of
+        /// `k_p` (and of `k_i`).
+        ///
+        /// The unit is \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing
+        /// is filtered.
+        #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
+        pub k_d: T,
+        /// The signal that `k_d` multiplies.
+        #[cfg_attr(feature = "serde", serde(default = "DerivativeSource::on_measurement"))]
+        pub damping: DerivativeSource<T>,
+        /// Time constant of the derivative filter, zero (no filter) or above \[s\].
+        #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
+        pub derivative_time: T,
+        /// Set-point weight b of the proportional term, within 0..=1.
+        #[cfg_attr(feature = "serde", serde(default = "T::one"))]
+        pub setpoint_weight: T,
+        /// Anti-windup method.
+        #[cfg_attr(feature = "serde", serde(default = "conditional"))]
+        pub anti_windup: AntiWindup<T>,
+        /// Largest magnitude of the integral term, above zero \[command unit\].
+        #[cfg_attr(feature = "serde", serde(default = "none"))]
+        pub integral_limit: Option<T>,
+        /// The integral is frozen while `|e|` is at most this value, zero or above \[output unit\].
+        ///
+        /// With static friction an integral winds up until the output jumps past the reference, and
+        /// the cycle repeats (hunting). A deadband wider than this jump prevents hunting.
+        #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
+        pub deadband: T,
+        /// Period of an output that wraps, above zero \[output unit\], such as 360°.
+        ///
+        /// The error and the changes of the output are then measured along the shorter way round,
+        /// within half a period. A period requires the full set-point weight b = 1, and a c of 0 or 1.
+        #[cfg_attr(feature = "serde", serde(default = "none"))]
+        pub period: Option<T>,
+        /// Range and slew-rate limit of the command.
+        pub limits: Limits<T>,
+        /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+        ///
+        /// A longer `dt` (a wrapped counter, a starved task) is a bad sample.
+        pub longest_dt: T,
+        /// Fallback after repeated bad samples; its safe command must lie within `limits`.
+        pub fallback: Fallback<T>,
+    }
 }
 
 #[cfg(feature = "serde")]

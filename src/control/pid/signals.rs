@@ -3,28 +3,27 @@
 use crate::control::Status;
 use crate::Real;
 
-/// One sample for a [`Pid`](super::Pid).
-///
-/// ```
-/// use bowden::control::PidInput;
-/// let sample = PidInput { feed_forward: 12.0, ..PidInput::new(0.001, 25.0, 24.8) };
-/// assert_eq!((sample.measured, sample.velocity), (24.8, 0.0));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PidInput<T> {
-    /// Time since the last call \[s\], also after a bad sample.
-    pub dt: T,
-    /// Reference y_r \[output unit\], such as \[N·m\].
-    pub reference: T,
-    /// Measured output y \[output unit\], such as \[N·m\].
-    pub measured: T,
-    /// Measured distal velocity \[rad/s\]; only PIV (16) reads it.
-    pub velocity: T,
-    /// Feed-forward, added to the command before the limits \[command unit\]; 0 for none.
-    pub feed_forward: T,
+crate::data! {
+    /// One sample for a [`Pid`](super::Pid).
+    ///
+    /// ```
+    /// use bowden::control::PidInput;
+    /// let sample = PidInput { feed_forward: 12.0, ..PidInput::new(0.001, 25.0, 24.8) };
+    /// assert_eq!((sample.measured, sample.velocity), (24.8, 0.0));
+    /// ```
+    #[derive(Default)]
+    pub struct PidInput<T> {
+        /// Time since the last call \[s\], also after a bad sample.
+        pub dt: T,
+        /// Reference y_r \[output unit\], such as \[N·m\].
+        pub reference: T,
+        /// Measured output y \[output unit\], such as \[N·m\].
+        pub measured: T,
+        /// Measured distal velocity \[rad/s\]; only PIV (16) reads it.
+        pub velocity: T,
+        /// Feed-forward, added to the command before the limits \[command unit\]; 0 for none.
+        pub feed_forward: T,
+    }
 }
 
 impl<T: Real> PidInput<T> {
@@ -41,46 +40,43 @@ impl<T: Real> PidInput<T> {
     }
 }
 
-/// Output of [`Pid::step_with_terms`](super::Pid::step_with_terms).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PidOutput<T> {
-    /// Command for the drive \[command unit\]: finite and within the limits.
-    pub command: T,
-    /// Status of the sample: good, or the fault and the substitute command.
-    pub status: Status,
-    /// Telemetry. On a bad sample these are the terms of the last good sample.
-    pub terms: PidTerms<T>,
-}
+crate::data! {
+    /// Output of [`Pid::step_with_terms`](super::Pid::step_with_terms).
+    pub struct PidOutput<T> {
+        /// Command for the drive \[command unit\]: finite and within the limits.
+        pub command: T,
+        /// Status of the sample: good, or the fault and the substitute command.
+        pub status: Status,
+        /// Telemetry. On a bad sample these are the terms of the last good sample.
+        pub terms: PidTerms<T>,
+    }
 
-/// Every term of the last good sample; they add up to `unlimited`.
-///
-/// ```
-/// use bowden::control::{Pid, PidInput, PidState};
-/// let at = PidInput { velocity: 0.1, feed_forward: 5.0, ..PidInput::new(0.001, 1.0, 0.5) };
-/// let terms = Pid::paper_piv().step_with_terms(&mut PidState::new(), &at).terms;
-/// assert_eq!((terms.proportional, terms.velocity, terms.feed_forward), (15.0, -1.0, 5.0));
-/// assert_eq!(terms.unlimited, 15.0 + terms.integral - 1.0 + 5.0);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PidTerms<T> {
-    /// e = y − y_r \[output unit\]
-    pub error: T,
-    /// −k_p·(y − b·y_r) \[command unit\]
-    pub proportional: T,
-    /// −k_i·∫e, after the anti-windup \[command unit\]
-    pub integral: T,
-    /// −k_d·d/dt(y − c·y_r), filtered \[command unit\]; zero with PIV
-    pub derivative: T,
-    /// −k_d·v_d of PIV \[command unit\]; zero with PI and PID
-    pub velocity: T,
-    /// The feed-forward of the sample \[command unit\].
-    pub feed_forward: T,
-    /// The sum of the terms, before range and slew-rate limit \[command unit\].
-    pub unlimited: T,
-    /// Whether the range or the slew-rate limit changed the command.
-    pub saturated: bool,
+    /// Every term of the last good sample; they add up to `unlimited`.
+    ///
+    /// ```
+    /// use bowden::control::{Pid, PidInput, PidState};
+    /// let at = PidInput { velocity: 0.1, feed_forward: 5.0, ..PidInput::new(0.001, 1.0, 0.5) };
+    /// let terms = Pid::paper_piv().step_with_terms(&mut PidState::new(), &at).terms;
+    /// assert_eq!((terms.proportional, terms.velocity, terms.feed_forward), (15.0, -1.0, 5.0));
+    /// assert_eq!(terms.unlimited, 15.0 + terms.integral - 1.0 + 5.0);
+    /// ```
+    #[derive(Default)]
+    pub struct PidTerms<T> {
+        /// e = y − y_r \[output unit\]
+        pub error: T,
+        /// −k_p·(y − b·y_r) \[command unit\]
+        pub proportional: T,
+        /// −k_i·∫e, after the anti-windup \[command unit\]
+        pub integral: T,
+        /// −k_d·d/dt(y − c·y_r), filtered \[command unit\]; zero with PIV
+        pub derivative: T,
+        /// −k_d·v_d of PIV \[command unit\]; zero with PI and PID
+        pub velocity: T,
+        /// The feed-forward of the sample \[command unit\].
+        pub feed_forward: T,
+        /// The sum of the terms, before range and slew-rate limit \[command unit\].
+        pub unlimited: T,
+        /// Whether the range or the slew-rate limit changed the command.
+        pub saturated: bool,
+    }
 }

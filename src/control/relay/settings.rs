@@ -6,78 +6,67 @@ use crate::control::{Fallback, Limits};
 use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
-/// Settings of a [`Relay`](super::Relay), with public fields; [`Relay::try_new`] checks them.
-///
-/// ```
-/// use bowden::constant;
-/// use bowden::control::{Fallback, Limits, Relay, RelaySettings};
-/// static RELAY: Relay<f32> = constant!(Relay::<f32>::try_new(RelaySettings {
-///     reference: 5.0,      // [N·m]
-///     centre: 10.0,        // [command unit]
-///     amplitude: 8.0,      // [command unit]
-///     hysteresis: 0.05,    // [N·m]
-///     most_deviation: 8.0, // [N·m]
-///     cycles: 4,
-///     agreement: 0.05,
-///     longest_time: 20.0, // [s]
-///     longest_dt: 0.005,  // [s]
-///     limits: constant!(Limits::<f32>::try_new(-20.0, 60.0)),
-///     fallback: constant!(Fallback::<f32>::try_new(20, 0.0)),
-/// }));
-/// assert_eq!(RELAY.settings().cycles, 4);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        deny_unknown_fields,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
-pub struct RelaySettings<T> {
-    /// Reference y_r, about which the output oscillates \[output unit\]; finite.
-    pub reference: T,
-    /// Mean of the two levels of the command \[command unit\]; finite.
+crate::data! {
+    /// Settings of a [`Relay`](super::Relay), with public fields; [`Relay::try_new`] checks them.
     ///
-    /// The command that holds the output at the reference gives equal half-periods.
-    pub centre: T,
-    /// d, the distance from the centre to each level \[command unit\]: finite, not zero, and with
-    /// the sign of the plant's gain. Both levels must lie within `limits`.
-    pub amplitude: T,
-    /// Hysteresis eps, zero or above \[output unit\]. It must be at least the peak of the noise,
-    /// otherwise the relay chatters.
-    pub hysteresis: T,
-    /// Largest distance of the output from the reference, above `hysteresis` \[output unit\].
-    ///
-    /// One sample beyond it ends the experiment, so the output must lie within this distance at the
-    /// start.
-    pub most_deviation: T,
-    /// Number of successive cycles in the average, at least two.
-    pub cycles: u32,
-    /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as a
-    /// share of this mean. The share must lie between 0 and 1.
-    ///
-    /// A cycle with a larger deviation restarts the average. A period must have at least
-    /// `2/agreement` samples, because a shorter period cannot be measured to this share.
-    pub agreement: T,
-    /// Maximum duration of the experiment, at least `longest_dt` \[s\].
-    ///
-    /// The duration is divided into 2³² − 1 ticks. Each sample consumes the ticks of its `dt`,
-    /// rounded up; n samples therefore end the experiment early by at most n/2³² of this duration.
-    pub longest_time: T,
-    /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
-    pub longest_dt: T,
-    /// Range of the command, without a slew-rate limit, because the relay and k_u assume a step.
-    pub limits: Limits<T>,
-    /// Fallback after a failure: a safe command within `limits`.
-    ///
-    /// [`Fallback::hold_indefinitely`] is refused, because it has no safe command.
-    pub fallback: Fallback<T>,
+    /// ```
+    /// use bowden::constant;
+    /// use bowden::control::{Fallback, Limits, Relay, RelaySettings};
+    /// static RELAY: Relay<f32> = constant!(Relay::<f32>::try_new(RelaySettings {
+    ///     reference: 5.0,      // [N·m]
+    ///     centre: 10.0,        // [command unit]
+    ///     amplitude: 8.0,      // [command unit]
+    ///     hysteresis: 0.05,    // [N·m]
+    ///     most_deviation: 8.0, // [N·m]
+    ///     cycles: 4,
+    ///     agreement: 0.05,
+    ///     longest_time: 20.0, // [s]
+    ///     longest_dt: 0.005,  // [s]
+    ///     limits: constant!(Limits::<f32>::try_new(-20.0, 60.0)),
+    ///     fallback: constant!(Fallback::<f32>::try_new(20, 0.0)),
+    /// }));
+    /// assert_eq!(RELAY.settings().cycles, 4);
+    /// ```
+    pub struct RelaySettings<T> {
+        /// Reference y_r, about which the output oscillates \[output unit\]; finite.
+        pub reference: T,
+        /// Mean of the two levels of the command \[command unit\]; finite.
+        ///
+        /// The command that holds the output at the reference gives equal half-periods.
+        pub centre: T,
+        /// d, the distance from the centre to each level \[command unit\]: finite, not zero, and with
+        /// the sign of the plant's gain. Both levels must lie within `limits`.
+        pub amplitude: T,
+        /// Hysteresis eps, zero or above \[output unit\]. It must be at least the peak of the noise,
+        /// otherwise the relay chatters.
+        pub hysteresis: T,
+        /// Largest distance of the output from the reference, above `hysteresis` \[output unit\].
+        ///
+        /// One sample beyond it ends the experiment, so the output must lie within this distance at the
+        /// start.
+        pub most_deviation: T,
+        /// Number of successive cycles in the average, at least two.
+        pub cycles: u32,
+        /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as a
+        /// share of this mean. The share must lie between 0 and 1.
+        ///
+        /// A cycle with a larger deviation restarts the average. A period must have at least
+        /// `2/agreement` samples, because a shorter period cannot be measured to this share.
+        pub agreement: T,
+        /// Maximum duration of the experiment, at least `longest_dt` \[s\].
+        ///
+        /// The duration is divided into 2³² − 1 ticks. Each sample consumes the ticks of its `dt`,
+        /// rounded up; n samples therefore end the experiment early by at most n/2³² of this duration.
+        pub longest_time: T,
+        /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+        pub longest_dt: T,
+        /// Range of the command, without a slew-rate limit, because the relay and k_u assume a step.
+        pub limits: Limits<T>,
+        /// Fallback after a failure: a safe command within `limits`.
+        ///
+        /// [`Fallback::hold_indefinitely`] is refused, because it has no safe command.
+        pub fallback: Fallback<T>,
+    }
 }
 
 crate::checked! {

@@ -25,39 +25,34 @@ crate::checked::stored! {
     }
 }
 
-/// Tuning rule: PI gains from ultimate gain and period.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum PiRule {
-    /// k_p = k_u/3.2, T_i = 2.2·T_u: the conservative rule, and the default.
-    ///
-    /// The describing function may give a k_u that is 28 % too high; the gain margin is then
-    /// still 3.2/1.28 = 2.5. For lags, and lags with delay, the gain margin is above 2.5 and
-    /// the phase margin above 45°. B. Tyreus, W. Luyben, "Tuning PI controllers for
-    /// integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
-    #[default]
-    TyreusLuyben,
-    /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
-    ///
-    /// The margins for the same plants are only above 1.5 and 15°.
-    ///
-    /// J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans. ASME* 64, 1942.
-    ZieglerNichols,
-}
+crate::data! {
+    /// Tuning rule: PI gains from ultimate gain and period.
+    #[derive(Eq, Hash, Default)]
+    #[non_exhaustive]
+    pub enum PiRule {
+        /// k_p = k_u/3.2, T_i = 2.2·T_u: the conservative rule, and the default.
+        ///
+        /// The describing function may give a k_u that is 28 % too high; the gain margin is then
+        /// still 3.2/1.28 = 2.5. For lags, and lags with delay, the gain margin is above 2.5 and
+        /// the phase margin above 45°. B. Tyreus, W. Luyben, "Tuning PI controllers for
+        /// integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
+        #[default]
+        TyreusLuyben,
+        /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
+        ///
+        /// The margins for the same plants are only above 1.5 and 15°.
+        ///
+        /// J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans. ASME* 64, 1942.
+        ZieglerNichols,
+    }
 
-/// Gains of a PI for [`PidSettings`](crate::control::PidSettings).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PiGains<T> {
-    /// Proportional gain \[command unit/output unit\].
-    pub k_p: T,
-    /// Integral gain k_p/T_i \[command unit/(output unit·s)\].
-    pub k_i: T,
+    /// Gains of a PI for [`PidSettings`](crate::control::PidSettings).
+    pub struct PiGains<T> {
+        /// Proportional gain \[command unit/output unit\].
+        pub k_p: T,
+        /// Integral gain k_p/T_i \[command unit/(output unit·s)\].
+        pub k_i: T,
+    }
 }
 
 impl<T: Real> Ultimate<T> {
