@@ -252,7 +252,6 @@ finite_anyway! {
     [T] crate::control::RelayPhase<T>;
     [T] crate::hysteresis::BoucWen<T>;
     [T] crate::hysteresis::BoucWenState<T>;
-    [T, const N: usize] crate::model::ModelState<T, N>;
 }
 
 /// A state, if all its numbers are finite.

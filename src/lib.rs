@@ -85,6 +85,8 @@ pub mod control;
 pub mod effect;
 mod error;
 pub mod hysteresis;
+#[cfg(feature = "serde")]
+mod list;
 pub mod model;
 mod real;
 pub mod signal;

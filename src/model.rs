@@ -21,8 +21,6 @@ mod curve;
 #[cfg(feature = "serde")]
 mod file;
 mod fixed;
-#[cfg(feature = "serde")]
-mod serial;
 mod state;
 
 use crate::effect::{saturate, Effect, Inputs, Motion, Offset, Stage};
@@ -150,7 +148,7 @@ pub struct Sample<'a, T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Model<T, const N: usize> {
     transmission: Option<Transmission<T>>,
-    /// The first `len` count; the rest are [`padding`].
+    /// The first `len` count; the others are the default.
     terms: [Term<T>; N],
     len: usize,
     stages: Stages,
@@ -174,13 +172,15 @@ impl Stages {
     }
 }
 
-/// Filler of the free slots: a term that adds nothing.
-fn padding<T: Real>() -> Term<T> {
-    Term {
-        effect: Offset.into(),
-        source: Source::Input,
-        origin: T::zero(),
-        gain: T::zero(),
+impl<T: Real> Default for Term<T> {
+    /// A term that adds nothing.
+    fn default() -> Self {
+        Self {
+            effect: Offset.into(),
+            source: Source::Input,
+            origin: T::zero(),
+            gain: T::zero(),
+        }
     }
 }
 
@@ -195,7 +195,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         transmission: Option<Transmission<T>>,
         terms: &[Term<T>],
     ) -> Result<Self, Error> {
-        let mut own = [padding(); N];
+        let mut own = [Term::default(); N];
         let places = own.get_mut(..terms.len());
         places
             .ok_or(Error::Capacity("terms"))?
@@ -245,7 +245,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         let mut kept = self.without_transmission();
         for term in &mut kept.terms {
             if is_left_out(term) {
-                *term = padding();
+                *term = Term::default();
             }
         }
         kept.stages = Stages::of(kept.terms());

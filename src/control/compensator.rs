@@ -339,7 +339,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         }
         let clamp = |term, there: &mut Inputs<T>| self.clamp(term, there);
         let memories = &mut state.effects;
-        let (before, clock) = (memories.memories(), memories.ticked(dt));
+        let (before, clock) = (memories.effects, memories.ticked(dt));
         let now = (clock.value, state.hysteresis.eta());
         let effects = self.effects.effects(memories, &sample, now, clamp);
         let wanted = desired - effects;
@@ -353,7 +353,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         let cable = &self.transmission;
         let most = target.abs() + cable.offset().abs() + cable.kappa_eta().abs();
         if !(T::from_f64(2.0) * most / cable.gain()).is_finite() {
-            state.effects.restore(before);
+            state.effects.effects = before;
             return Err(Fault::Overflow);
         }
         state.effects.set_clock(clock);

@@ -1,6 +1,6 @@
 //! The terms of a curve through points.
 
-use super::{padding, Source, Term};
+use super::{Source, Term};
 use crate::effect::{CurvePosition, CurveVelocity, Effect, Offset, Quantity};
 use crate::error::finite;
 use crate::{Error, Real};
@@ -38,7 +38,7 @@ impl<T: Real> Term<T> {
         source: Source,
         points: [(T, T); N],
     ) -> Result<[Self; N], Error> {
-        let mut terms = [padding(); N];
+        let mut terms = [Self::default(); N];
         let mut before = None;
         for (term, (x, f)) in terms.iter_mut().zip(points) {
             let (from, level) = before.unwrap_or((x, T::zero()));

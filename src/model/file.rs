@@ -1,16 +1,17 @@
-//! The model as a file, schema `bowden.model/1`: read and written without a heap.
+//! Stored forms of a model, read and written without a heap.
 //!
-//! The content of every human-readable format; the compact form is in `serial.rs`.
+//! In a human-readable format a model has the form of a model file, schema `bowden.model/1`. In
+//! every other format it has the form of its [`Parts`]. Reading uses the constructors and their
+//! checks.
 
-use super::serial::{Fill, List};
-use super::{padding, Model, Source, Term};
+use super::{Model, Source, Term};
 use crate::effect::{Effect, CATALOGUE};
 use crate::hysteresis::BoucWen;
+use crate::list::List;
 use crate::transmission::{Mode, Transmission};
 use crate::{Error, Real};
 use core::fmt;
-use core::marker::PhantomData;
-use serde::de::{Error as _, IgnoredAny, SeqAccess, Visitor};
+use serde::de::{Error as _, IgnoredAny, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 const SCHEMA: &str = "bowden.model/1";
@@ -20,6 +21,44 @@ const MOST_SHAPES: usize = 4;
 
 /// As many channels as a [`Source::Channel`] can number.
 const MOST_CHANNELS: usize = 256;
+
+/// The form of a model in a format without names.
+#[derive(Serialize, Deserialize)]
+#[serde(
+    rename = "Model",
+    bound(
+        serialize = "T: Real + Serialize",
+        deserialize = "T: Real + Deserialize<'de>"
+    )
+)]
+struct Parts<T, const N: usize> {
+    #[serde(default = "Option::default")]
+    transmission: Option<Transmission<T>>,
+    terms: List<Term<T>, N>,
+}
+
+impl<T: Real + Serialize, const N: usize> Serialize for Model<T, N> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        if to.is_human_readable() {
+            return write(self, to);
+        }
+        let parts = Parts::<T, N> {
+            transmission: self.transmission,
+            terms: List::of(self.terms().iter().copied()),
+        };
+        parts.serialize(to)
+    }
+}
+
+impl<'de, T: Real + Deserialize<'de>, const N: usize> Deserialize<'de> for Model<T, N> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        if from.is_human_readable() {
+            return read(from);
+        }
+        let parts = Parts::<T, N>::deserialize(from)?;
+        Self::try_new(parts.transmission, parts.terms.items()).map_err(D::Error::custom)
+    }
+}
 
 /// Reads a text and converts it by a function.
 struct Text<F>(&'static str, F);
@@ -38,95 +77,51 @@ impl<X, F: FnOnce(&str) -> Option<X>> Visitor<'_> for Text<F> {
     }
 }
 
-/// The schema, which must be the known one.
-struct Schema;
+/// Types that are read from a text.
+macro_rules! texts {
+    ($($(#[$attr:meta])* struct $name:ident($kind:ty) = $expected:literal: $known:expr;)+) => {$(
+        $(#[$attr])*
+        struct $name($kind);
 
-impl<'de> Deserialize<'de> for Schema {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let known = |text: &str| (text == SCHEMA).then_some(Self);
-        from.deserialize_str(Text("the schema \"bowden.model/1\"", known))
-    }
-}
-
-/// An effect's name, from the catalogue.
-struct EffectName(&'static str);
-
-impl<'de> Deserialize<'de> for EffectName {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let known = |text: &str| {
-            let info = CATALOGUE.iter().find(|info| info.name == text);
-            info.map(|info| Self(info.name))
-        };
-        from.deserialize_str(Text("an effect of the catalogue", known))
-    }
-}
-
-/// A name of any length, stored as 64 bits (FNV-1a): there is no room for the names of all
-/// channels. Two channels with the same hash are refused, so they cannot be confused.
-#[derive(Clone, Copy, PartialEq)]
-struct Name(u64);
-
-impl Name {
-    fn of(text: &str) -> Self {
-        let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        Self(text.bytes().fold(0xcbf2_9ce4_8422_2325, mix))
-    }
-}
-
-impl<'de> Deserialize<'de> for Name {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_str(Text("a name", |text: &str| Some(Self::of(text))))
-    }
-}
-
-/// The channels in the order of the sample.
-struct Channels {
-    names: [Name; MOST_CHANNELS],
-    count: usize,
-}
-
-impl Channels {
-    fn source(&self, name: Name) -> Option<Source> {
-        let mut names = self.names.iter().take(self.count);
-        if name == Name::of("input") {
-            return Some(Source::Input);
-        }
-        let place = names.position(|channel| *channel == name)?;
-        u8::try_from(place).ok().map(Source::Channel)
-    }
-}
-
-impl<'de> Deserialize<'de> for Channels {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Names;
-
-        impl<'de> Visitor<'de> for Names {
-            type Value = Channels;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "the names of at most {MOST_CHANNELS} channels")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut from: A) -> Result<Channels, A::Error> {
-                let mut channels = Channels {
-                    names: [Name(0); MOST_CHANNELS],
-                    count: 0,
-                };
-                while let Some(name) = from.next_element::<Name>()? {
-                    let known = channels.names.iter().take(channels.count);
-                    if known.into_iter().any(|other| *other == name) {
-                        return Err(A::Error::custom("two channels have one name"));
-                    }
-                    let place = channels.names.get_mut(channels.count);
-                    *place.ok_or_else(|| A::Error::custom(Error::Capacity("channels")))? = name;
-                    channels.count += 1;
-                }
-                Ok(channels)
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                let known: fn(&str) -> Option<$kind> = $known;
+                from.deserialize_str(Text($expected, known)).map(Self)
             }
         }
+    )+};
+}
 
-        from.deserialize_seq(Names)
-    }
+texts! {
+    /// The schema, which must be the known one.
+    #[derive(Serialize)]
+    struct Schema(&'static str) = "the schema \"bowden.model/1\"":
+        |text| (text == SCHEMA).then_some(SCHEMA);
+
+    /// An effect's name, from the catalogue.
+    #[derive(Clone, Copy, Default, Serialize)]
+    struct EffectName(&'static str) = "an effect of the catalogue": |text| {
+        let mut names = CATALOGUE.iter().map(|info| info.name);
+        names.find(|name| *name == text)
+    };
+
+    /// The name of a shape parameter, from the catalogue.
+    #[derive(Clone, Copy, Default, Serialize)]
+    struct ShapeName(&'static str) = "a shape's name": |text| {
+        let mut names = CATALOGUE.iter().flat_map(|info| info.shapes).map(|shape| shape.name);
+        // An unknown name matches none.
+        Some(names.find(|name| *name == text).unwrap_or(""))
+    };
+
+    /// A name of any length, stored as 64 bits (FNV-1a): there is no room for the names of all
+    /// channels. Two channels with the same hash are refused, so they cannot be confused.
+    #[derive(Clone, Copy, Default, PartialEq)]
+    struct Name(u64) = "a name": |text| Some(hash(text));
+}
+
+fn hash(text: &str) -> u64 {
+    let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, mix)
 }
 
 /// The transmission's numbers.
@@ -164,113 +159,71 @@ impl<T: Real> Figures<T> {
     }
 }
 
-/// A shape parameter's name, up to the length of the longest; a longer name matches none.
-struct ShapeName {
-    bytes: [u8; 16],
-    len: usize,
-}
-
-impl ShapeName {
-    fn of(text: &str) -> Self {
-        let mut bytes = [0; 16];
-        bytes
-            .iter_mut()
-            .zip(text.bytes())
-            .for_each(|(to, from)| *to = from);
-        Self {
-            bytes,
-            len: text.len(),
-        }
-    }
-
-    fn is(&self, name: &str) -> bool {
-        self.bytes.get(..self.len) == Some(name.as_bytes())
-    }
-}
-
-impl<'de> Deserialize<'de> for ShapeName {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_str(Text("a shape's name", |text: &str| Some(Self::of(text))))
-    }
-}
-
 /// One shape parameter of a term.
-#[derive(Deserialize)]
-#[serde(rename = "BoucWen", deny_unknown_fields)]
-struct NamedValue<T> {
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Shape<T> {
     name: ShapeName,
     value: T,
 }
 
-/// One term, before its source and its effect are known.
-#[derive(Deserialize)]
+/// One term; `S` is its source.
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
 #[serde(
     rename = "Term",
     deny_unknown_fields,
-    bound(deserialize = "T: Real + Deserialize<'de>")
+    bound(deserialize = "T: Real + Deserialize<'de>, S: Deserialize<'de>")
 )]
-struct Line<T> {
+struct Line<T, S> {
     effect: EffectName,
-    source: Name,
+    source: S,
     #[serde(default)]
     origin: T,
     gain: T,
-    #[serde(default = "Shapes::none")]
-    shapes: Shapes<T>,
+    #[serde(default)]
+    shapes: List<Shape<T>, MOST_SHAPES>,
 }
 
-type Shapes<T> = List<NamedValue<T>, MOST_SHAPES>;
-type Lines<T, const N: usize> = List<Line<T>, N>;
-
-impl<T: Real> Shapes<T> {
-    fn free() -> NamedValue<T> {
-        NamedValue {
-            name: ShapeName::of(""),
-            value: T::zero(),
-        }
-    }
-
-    fn none() -> Self {
-        Self::of(Self::free)
-    }
+/// The file, with these channels and terms.
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Model", deny_unknown_fields)]
+struct File<T, C, L> {
+    schema: Schema,
+    mode: Mode,
+    channels: C,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transmission: Option<Figures<T>>,
+    #[serde(default)]
+    terms: L,
+    #[serde(default, skip_serializing, rename = "about")]
+    _about: IgnoredAny,
 }
 
-impl<'de, T: Real + Deserialize<'de>> Deserialize<'de> for Shapes<T> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_seq(Fill(Self::free, PhantomData))
-    }
-}
-
-impl<T: Real> Line<T> {
-    fn free() -> Self {
-        Self {
-            effect: EffectName("offset"),
-            source: Name::of("input"),
-            origin: T::zero(),
-            gain: T::zero(),
-            shapes: Shapes::none(),
-        }
-    }
-
+impl<T: Real> Line<T, Name> {
     /// The term, or its error.
-    fn term<E: serde::de::Error>(&self, channels: &Channels) -> Result<Term<T>, E> {
+    fn term<E: serde::de::Error>(&self, channels: &[Name]) -> Result<Term<T>, E> {
         let EffectName(name) = self.effect;
-        let mut values = [T::zero(); MOST_SHAPES];
         let given = self.shapes.items();
-        let places = values.iter_mut().zip(given);
-        places.for_each(|(value, shape)| *value = shape.value);
+        let mut values = [T::zero(); MOST_SHAPES];
+        for (value, shape) in values.iter_mut().zip(given) {
+            *value = shape.value;
+        }
         let values = values.get(..given.len()).unwrap_or(&[]);
         let effect = Effect::try_from_name(name, values)
             .map_err(|error| E::custom(format_args!("term {name}: {error}")))?;
         for (shape, expected) in given.iter().zip(effect.info().shapes) {
-            if !shape.name.is(expected.name) {
+            if shape.name.0 != expected.name {
                 return Err(E::custom(format_args!(
                     "term {name}: another shape where {} was expected",
                     expected.name
                 )));
             }
         }
-        let source = channels.source(self.source);
+        let place = || channels.iter().position(|channel| *channel == self.source);
+        let source = match self.source == Name(hash("input")) {
+            true => Some(Source::Input),
+            false => place().and_then(|place| u8::try_from(place).ok().map(Source::Channel)),
+        };
         Ok(Term {
             effect,
             source: source.ok_or_else(|| {
@@ -282,159 +235,82 @@ impl<T: Real> Line<T> {
     }
 }
 
-impl<'de, T: Real + Deserialize<'de>, const N: usize> Deserialize<'de> for Lines<T, N> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_seq(Fill(Line::free, PhantomData))
-    }
-}
-
-/// The file.
-#[derive(Deserialize)]
-#[serde(
-    rename = "Model",
-    deny_unknown_fields,
-    bound(deserialize = "T: Real + Deserialize<'de>")
-)]
-struct File<T, const N: usize> {
-    #[serde(rename = "schema")]
-    _schema: Schema,
-    mode: Mode,
-    channels: Channels,
-    #[serde(default = "Option::default")]
-    transmission: Option<Figures<T>>,
-    #[serde(default = "no_lines")]
-    terms: Lines<T, N>,
-    #[serde(default, rename = "about")]
-    _about: IgnoredAny,
-}
-
-fn no_lines<T: Real, const N: usize>() -> Lines<T, N> {
-    List::of(Line::free)
-}
-
 /// Reads a model in the form of a file.
-pub(super) fn read<'de, T, D, const N: usize>(from: D) -> Result<Model<T, N>, D::Error>
+fn read<'de, T, D, const N: usize>(from: D) -> Result<Model<T, N>, D::Error>
 where
     T: Real + Deserialize<'de>,
     D: Deserializer<'de>,
 {
-    let file = File::<T, N>::deserialize(from)?;
-    let transmission = file
-        .transmission
-        .map(|figures| figures.transmission(file.mode));
+    type Channels = List<Name, MOST_CHANNELS>;
+    let file = File::<T, Channels, List<Line<T, Name>, N>>::deserialize(from)?;
+    let channels = file.channels.items();
+    for (place, name) in channels.iter().enumerate() {
+        if channels.iter().take(place).any(|other| other == name) {
+            return Err(D::Error::custom("two channels have one name"));
+        }
+    }
+    let transmission = file.transmission;
     let transmission = transmission
+        .map(|figures| figures.transmission(file.mode))
         .transpose()
         .map_err(|error| D::Error::custom(format_args!("transmission: {error}")))?;
-    let mut terms = [padding(); N];
+    let mut terms = [Term::default(); N];
     let lines = file.terms.items();
     for (term, line) in terms.iter_mut().zip(lines) {
-        *term = line.term(&file.channels)?;
+        *term = line.term(channels)?;
     }
     let terms = terms.get(..lines.len()).unwrap_or(&[]);
     Model::try_new(transmission, terms).map_err(D::Error::custom)
 }
 
-/// The file for output: channels are named by their numbers.
-#[derive(Serialize)]
-#[serde(rename = "Model", bound = "T: Real + Serialize")]
-struct FileView<'a, T> {
-    schema: &'static str,
-    mode: Mode,
-    channels: Numbered,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    transmission: Option<Figures<T>>,
-    terms: Terms<'a, T>,
-}
-
-/// The names of this number of channels.
-struct Numbered(usize);
+/// A source for output: a channel is named by its number.
+#[derive(Clone, Copy, Default)]
+struct Numbered(Option<u8>);
 
 impl Serialize for Numbered {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq((0..self.0).map(ChannelName))
-    }
-}
-
-struct ChannelName(usize);
-
-impl Serialize for ChannelName {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_str(&format_args!("channel_{}", self.0))
-    }
-}
-
-struct Terms<'a, T>(&'a [Term<T>]);
-
-impl<T: Real + Serialize> Serialize for Terms<'_, T> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq(self.0.iter().map(|term| LineView {
-            effect: term.effect.name(),
-            source: SourceView(term.source),
-            origin: term.origin,
-            gain: term.gain,
-            shapes: ShapesView(&term.effect),
-        }))
-    }
-}
-
-#[derive(Serialize)]
-#[serde(rename = "Term", bound = "T: Real + Serialize")]
-struct LineView<'a, T> {
-    effect: &'static str,
-    source: SourceView,
-    origin: T,
-    gain: T,
-    shapes: ShapesView<'a, T>,
-}
-
-struct SourceView(Source);
-
-impl Serialize for SourceView {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self.0 {
-            Source::Input => to.serialize_str("input"),
-            Source::Channel(index) => ChannelName(usize::from(index)).serialize(to),
+            None => to.serialize_str("input"),
+            Some(index) => to.collect_str(&format_args!("channel_{index}")),
         }
     }
 }
 
-struct ShapesView<'a, T>(&'a Effect<T>);
-
-#[derive(Serialize)]
-#[serde(rename = "BoucWen")]
-struct ShapeView<T> {
-    name: &'static str,
-    value: T,
-}
-
-impl<T: Real + Serialize> Serialize for ShapesView<'_, T> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let shapes = self.0.info().shapes.iter().enumerate();
-        to.collect_seq(shapes.filter_map(|(index, shape)| {
-            let (name, value) = (shape.name, self.0.shape(index)?);
-            Some(ShapeView { name, value })
-        }))
-    }
-}
-
 /// Writes a model in the form of a file.
-pub(super) fn write<T, S, const N: usize>(model: &Model<T, N>, to: S) -> Result<S::Ok, S::Error>
+fn write<T, S, const N: usize>(model: &Model<T, N>, to: S) -> Result<S::Ok, S::Error>
 where
     T: Real + Serialize,
     S: Serializer,
 {
-    let counted = |term: &Term<T>| match term.source {
-        Source::Input => 0,
-        Source::Channel(index) => usize::from(index) + 1,
+    let number = |term: &Term<T>| match term.source {
+        Source::Input => None,
+        Source::Channel(index) => Some(index),
+    };
+    let line = |term: &Term<T>| {
+        let shapes = term.effect.info().shapes.iter().enumerate();
+        Line {
+            effect: EffectName(term.effect.name()),
+            source: Numbered(number(term)),
+            origin: term.origin,
+            gain: term.gain,
+            shapes: List::of(shapes.filter_map(|(index, shape)| {
+                let (name, value) = (ShapeName(shape.name), term.effect.shape(index)?);
+                Some(Shape { name, value })
+            })),
+        }
     };
     let transmission = model.transmission();
-    FileView {
-        schema: SCHEMA,
+    let terms = model.terms().iter();
+    let channels = terms.clone().filter_map(number).max();
+    let numbered = (0..=u8::MAX).take_while(|index| Some(*index) <= channels);
+    let file = File {
+        schema: Schema(SCHEMA),
         // Without a transmission a mode has no meaning.
         mode: transmission.map_or(Mode::Displacement, Transmission::mode),
-        channels: Numbered(model.terms().iter().map(counted).max().unwrap_or(0)),
+        channels: List::<_, MOST_CHANNELS>::of(numbered.map(|index| Numbered(Some(index)))),
         transmission: transmission.map(Figures::of),
-        terms: Terms(model.terms()),
-    }
-    .serialize(to)
+        terms: List::<_, N>::of(terms.map(line)),
+        _about: IgnoredAny,
+    };
+    file.serialize(to)
 }

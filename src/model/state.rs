@@ -5,23 +5,25 @@ use crate::hysteresis::BoucWenState;
 use crate::signal::Compensated;
 use crate::{Error, Real};
 
-/// State of a [`Model`](super::Model) between samples.
-///
-/// ```
-/// use bowden::model::ModelState;
-/// let fresh = ModelState::<f32, 4>::new();
-/// assert_eq!((fresh.eta(), fresh.time(), fresh.output()), (0.0, 0.0, 0.0));
-/// assert!(ModelState::<f32, 4>::with_eta(1.5).is_err());
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ModelState<T, const N: usize> {
-    pub(super) hysteresis: BoucWenState<T>,
-    pub(super) effects: [EffectState<T>; N],
-    pub(super) started: bool,
-    /// Compensated: dt is far below it.
-    pub(super) time: Compensated<T>,
-    pub(super) output: T,
+crate::checked::stored! {
+    /// State of a [`Model`](super::Model) between samples.
+    ///
+    /// ```
+    /// use bowden::model::ModelState;
+    /// let fresh = ModelState::<f32, 4>::new();
+    /// assert_eq!((fresh.eta(), fresh.time(), fresh.output()), (0.0, 0.0, 0.0));
+    /// assert!(ModelState::<f32, 4>::with_eta(1.5).is_err());
+    /// ```
+    pub struct ModelState<T, const N: usize> {
+        pub(super) hysteresis: BoucWenState<T>,
+        /// If the stored list is shorter, the omitted memories start as new.
+        #[serde(serialize_with = "crate::list::serialize", deserialize_with = "crate::list::padded")]
+        pub(crate) effects: [EffectState<T>; N],
+        pub(super) started: bool,
+        /// Compensated: dt is far below it.
+        pub(super) time: Compensated<T>,
+        pub(super) output: T,
+    }
 }
 
 impl<T: Real, const N: usize> ModelState<T, N> {
@@ -89,18 +91,6 @@ impl<T: Real, const N: usize> ModelState<T, N> {
     pub(crate) fn set_clock(&mut self, time: Compensated<T>) {
         self.time = time;
         self.started = true;
-    }
-
-    /// The memories of the effects, without the clock.
-    #[inline]
-    pub(crate) fn memories(&self) -> [EffectState<T>; N] {
-        self.effects
-    }
-
-    /// Restores earlier memories.
-    #[inline]
-    pub(crate) fn restore(&mut self, memories: [EffectState<T>; N]) {
-        self.effects = memories;
     }
 }
 

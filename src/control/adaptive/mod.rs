@@ -22,8 +22,6 @@
 //! for beta_hat, and bounds not below zero for delta_hat.
 
 mod estimator;
-#[cfg(feature = "serde")]
-mod list;
 #[cfg(kani)]
 #[path = "../../../proofs/adaptive/mod.rs"]
 mod proofs;

@@ -84,7 +84,7 @@ crate::data! {
         /// Estimate of the bound on the disturbance \[N·m\], (25).
         pub delta: Estimator<T>,
         /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
-        #[cfg_attr(feature = "serde", serde(with = "super::list"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::list"))]
         pub theta: [Estimator<T>; N],
         /// Largest magnitude of the accumulated error z \[N·m·s\].
         #[cfg_attr(feature = "serde", serde(default = "T::max_value"))]
@@ -95,7 +95,7 @@ crate::data! {
         /// Response of each regressor to a value that is not finite.
         #[cfg_attr(
             feature = "serde",
-            serde(with = "super::list", default = "all_hold::<N>")
+            serde(with = "crate::list", default = "all_hold::<N>")
         )]
         pub missing: [OnMissing; N],
         /// Range and slew-rate limit of the command.

@@ -93,7 +93,7 @@ pub struct AdaptiveTerms<T, const N: usize> {
     /// theta_hat_i \[N·m/unit of the regressor\].
     #[cfg_attr(
         feature = "serde",
-        serde(with = "super::list", bound(serialize = "T: Real + serde::Serialize"))
+        serde(with = "crate::list", bound(serialize = "T: Real + serde::Serialize"))
     )]
     pub theta_hat: [T; N],
 }
@@ -107,7 +107,7 @@ crate::checked::stored! {
         pub(super) lag: Compensated<T>,
         pub(super) beta: Compensated<T>,
         pub(super) delta: Compensated<T>,
-        #[serde(with = "super::list")]
+        #[serde(with = "crate::list")]
         pub(super) theta: [Compensated<T>; N],
         pub(super) held: Held<T>,
         /// Time of the bad samples since the last good one \[s\]. The highest float means an
