@@ -28,7 +28,7 @@ mod prewarped;
 /// *Solving the continuous SVF equations using trapezoidal integration*, 2013). It has the same
 /// transfer function as the direct forms. Direct forms store `1 − frequency²·…` in coefficients
 /// near 2, and in `f32` lose the corner below 1/1000 of the sample rate. Here the coefficients
-/// are proportional to `frequency`, and the integrators are [`Compensated`] sums. Test
+/// are proportional to `frequency`, and the integrators are compensated sums. Test
 /// `a_low_corner_needs_this_form_in_single_precision` in `tests/signal/filters.rs` compares
 /// both forms.
 ///
@@ -83,14 +83,9 @@ crate::checked::stored! {
     pub struct BiquadState<T> {
         value: Option<T>,
         /// The integrator of the band-pass: zero at rest.
-        band: T,
+        band: Compensated<T>,
         /// The integrator of the low-pass: the input, at rest.
-        low: T,
-        /// Rounding error of each integrator.
-        #[serde(default = "T::zero")]
-        band_carry: T,
-        #[serde(default = "T::zero")]
-        low_carry: T,
+        low: Compensated<T>,
     }
 }
 
@@ -175,8 +170,7 @@ impl<T: Real> Biquad<T> {
         if state.value.is_none() {
             return BiquadState::at(sample);
         }
-        let [band, low] = [(state.band, state.band_carry), (state.low, state.low_carry)]
-            .map(|(value, carry)| Compensated { value, carry });
+        let (band, low) = (state.band, state.low);
         let g = self.slope * dt;
         let pull = (sample - low.value) - low.carry;
         let pace = g + self.damping;
@@ -188,13 +182,10 @@ impl<T: Real> Biquad<T> {
             Response::LowPass => low.value + (low.carry + rise),
             Response::Notch => sample - self.damping * middle,
         };
-        let (band, low) = (band.plus(push + push), low.plus(rise + rise));
         let next = BiquadState {
             value: Some(value),
-            band: band.value,
-            band_carry: band.carry,
-            low: low.value,
-            low_carry: low.carry,
+            band: band.plus(push + push),
+            low: low.plus(rise + rise),
         };
         if next.is_finite() {
             next
@@ -210,10 +201,8 @@ impl<T: Real> BiquadState<T> {
     pub const fn new() -> Self {
         Self {
             value: None,
-            band: T::ZERO,
-            band_carry: T::ZERO,
-            low: T::ZERO,
-            low_carry: T::ZERO,
+            band: Compensated::new(T::ZERO),
+            low: Compensated::new(T::ZERO),
         }
     }
 
@@ -222,22 +211,19 @@ impl<T: Real> BiquadState<T> {
     pub const fn at(value: T) -> Self {
         Self {
             value: Some(value),
-            band: T::ZERO,
-            band_carry: T::ZERO,
-            low: value,
-            low_carry: T::ZERO,
+            band: Compensated::new(T::ZERO),
+            low: Compensated::new(value),
         }
     }
 
     /// A state with any numbers.
     #[cfg(kani)]
-    pub(crate) const fn of(value: Option<T>, [band, band_carry, low, low_carry]: [T; 4]) -> Self {
+    pub(crate) fn of(value: Option<T>, [band, band_carry, low, low_carry]: [T; 4]) -> Self {
+        let sum = |value, carry| Compensated { value, carry };
         Self {
             value,
-            band,
-            band_carry,
-            low,
-            low_carry,
+            band: sum(band, band_carry),
+            low: sum(low, low_carry),
         }
     }
 
@@ -249,8 +235,8 @@ impl<T: Real> BiquadState<T> {
     /// As [`Finite`](crate::checked::Finite), in fewer instructions.
     #[inline]
     fn is_finite(&self) -> bool {
-        let integrators = self.band.is_finite() && self.low.is_finite();
-        let carries = self.band_carry.is_finite() && self.low_carry.is_finite();
+        let integrators = self.band.value.is_finite() && self.low.value.is_finite();
+        let carries = self.band.carry.is_finite() && self.low.carry.is_finite();
         integrators && carries && self.value().is_finite()
     }
 }

@@ -11,10 +11,10 @@ crate::checked::stored! {
     /// form. It is stable at any `dt`, which may vary, and needs no exponential. The corner is
     /// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
     ///
-    /// The first good sample starts the filter at rest: the output is that sample. The output
-    /// leaves the range of the samples only through rounding. The output is a [`Compensated`] sum:
-    /// a plain `f32` lag stops once its increment is less than half a unit in the last place, with
-    /// a tau of 1000·dt up to 3e-5 of the target away from it.
+    /// The first good sample starts the filter at rest: the output is that sample. The output leaves
+    /// the range of the samples only through rounding. The output is a compensated sum. A plain
+    /// `f32` lag stops once its increment is less than half a unit in the last place. With a tau of
+    /// 1000·dt it would stop up to 3e-5 of the target away from it.
     ///
     /// For a second-order filter, see [`Biquad`](super::Biquad).
     ///
@@ -42,10 +42,7 @@ crate::checked::stored! {
     /// State of a [`LowPass`]: its output, empty before the first good sample.
     #[derive(Default)]
     pub struct LowPassState<T> {
-        value: Option<T>,
-        /// Rounding error of the output.
-        #[serde(default = "T::zero")]
-        carry: T,
+        sum: Option<Compensated<T>>,
     }
 }
 
@@ -83,21 +80,16 @@ impl<T: Real> LowPass<T> {
 
     #[inline]
     fn after(&self, state: &LowPassState<T>, sample: T, dt: T) -> LowPassState<T> {
-        let Some(value) = state.value else {
+        let Some(sum) = state.sum else {
             return LowPassState::at(sample);
         };
-        let carry = state.carry;
-        let sum = Compensated { value, carry };
         // The share is at most 1; two times whose sum overflows have one of zero.
         let share = dt / (self.time_constant + dt);
-        let next = sum.plus(share * ((sample - value) - carry));
+        let next = sum.plus(share * ((sample - sum.value) - sum.carry));
         if !(next.value.is_finite() && next.carry.is_finite()) {
             return LowPassState::at(sample);
         }
-        LowPassState {
-            value: Some(next.value),
-            carry: next.carry,
-        }
+        LowPassState { sum: Some(next) }
     }
 }
 
@@ -105,29 +97,27 @@ impl<T: Real> LowPassState<T> {
     /// A state that starts at rest at the first good sample.
     #[inline]
     pub const fn new() -> Self {
-        Self {
-            value: None,
-            carry: T::ZERO,
-        }
+        Self { sum: None }
     }
 
     /// A state at rest at a value \[signal unit\].
     #[inline]
     pub const fn at(value: T) -> Self {
         Self {
-            value: Some(value),
-            carry: T::ZERO,
+            sum: Some(Compensated::new(value)),
         }
     }
 
     /// A state with any numbers.
     #[cfg(kani)]
-    pub(crate) const fn of(value: Option<T>, carry: T) -> Self {
-        Self { value, carry }
+    pub(crate) fn of(value: Option<T>, carry: T) -> Self {
+        Self {
+            sum: value.map(|value| Compensated { value, carry }),
+        }
     }
 
     /// The output \[signal unit\]; zero before the first good sample.
     pub fn value(&self) -> T {
-        self.value.unwrap_or(T::ZERO)
+        self.sum.map_or(T::ZERO, |sum| sum.value)
     }
 }

@@ -36,13 +36,9 @@ crate::checked::stored! {
     /// State of a [`Ramp`]: the ramp and the filtered value.
     #[derive(Default)]
     pub struct RampState<T> {
-        ramp: T,
-        value: T,
-        /// Rounding error of each: at 10 kHz a plain `f32` ramp of 0.005/s would never leave 25.
-        #[serde(default = "T::zero")]
-        ramp_carry: T,
-        #[serde(default = "T::zero")]
-        value_carry: T,
+        /// Compensated: at 10 kHz a plain `f32` ramp of 0.005/s would never leave 25.
+        ramp: Compensated<T>,
+        value: Compensated<T>,
     }
 }
 
@@ -85,32 +81,20 @@ impl<T: Real> Ramp<T> {
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {
             let reach = self.rate * dt;
-            let ramp = Compensated {
-                value: state.ramp,
-                carry: state.ramp_carry,
-            };
-            let ramp = if (wanted - ramp.value).abs() <= reach {
+            let last = state.ramp;
+            let ramp = if (wanted - last.value).abs() <= reach {
                 Compensated::new(wanted)
             } else {
-                let reach = if wanted > ramp.value { reach } else { -reach };
-                towards(ramp, reach, wanted)
+                let reach = if wanted > last.value { reach } else { -reach };
+                towards(last, reach, wanted)
             };
-            let value = Compensated {
-                value: state.value,
-                carry: state.value_carry,
-            };
-            let way = dt * (ramp.value - value.value) / (self.time_constant + dt);
-            let value = towards(value, way, ramp.value);
+            let way = dt * (ramp.value - state.value.value) / (self.time_constant + dt);
+            let value = towards(state.value, way, ramp.value);
             if (ramp.carry + value.carry).is_finite() {
-                *state = RampState {
-                    ramp: ramp.value,
-                    value: value.value,
-                    ramp_carry: ramp.carry,
-                    value_carry: value.carry,
-                };
+                *state = RampState { ramp, value };
             }
         }
-        state.value
+        state.value()
     }
 }
 
@@ -128,16 +112,12 @@ fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
 impl<T: Real> RampState<T> {
     /// A state at rest at a value \[signal unit\].
     pub const fn at(value: T) -> Self {
-        Self {
-            ramp: value,
-            value,
-            ramp_carry: T::ZERO,
-            value_carry: T::ZERO,
-        }
+        let value = Compensated::new(value);
+        Self { ramp: value, value }
     }
 
     /// The reference \[signal unit\].
     pub const fn value(&self) -> T {
-        self.value
+        self.value.value
     }
 }

@@ -19,21 +19,20 @@ pub(super) const fn slope(frequency: f64, sample_time: f64) -> f64 {
 
 /// `sin(x)/x` of `x²`, for x up to π/4: its series, whose next term is below 1e-17.
 const fn sine_over(square: f64) -> f64 {
-    let mut sum = 1.0;
-    let mut k = 8.0;
-    while k > 0.0 {
-        sum = 1.0 - square / (2.0 * k * (2.0 * k + 1.0)) * sum;
-        k -= 1.0;
-    }
-    sum
+    series(square, 1.0)
 }
 
 /// The cosine of x, of `x²`, likewise.
 const fn cosine(square: f64) -> f64 {
+    series(square, -1.0)
+}
+
+/// `1 − square/(2·(2 + shift))·(1 − square/(4·(4 + shift))·(…))`
+const fn series(square: f64, shift: f64) -> f64 {
     let mut sum = 1.0;
     let mut k = 8.0;
     while k > 0.0 {
-        sum = 1.0 - square / (2.0 * k * (2.0 * k - 1.0)) * sum;
+        sum = 1.0 - square / (2.0 * k * (2.0 * k + shift)) * sum;
         k -= 1.0;
     }
     sum
