@@ -124,8 +124,8 @@ fn laws_of_any_settings() {
     });
     kani::cover!(law.is_err());
     if let Ok(law) = law {
-        kani::cover!(law.largest_step().is_some());
-        kani::cover!(law.largest_step().is_none());
+        kani::cover!(law.settings().largest_step().is_some());
+        kani::cover!(law.settings().largest_step().is_none());
         assert!(law.is_valid(&AdaptiveState::new(&law)));
     }
 }

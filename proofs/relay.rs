@@ -1,7 +1,7 @@
 //! K15: any sample to the relay experiment, from any state.
 
 use super::*;
-use crate::control::status::Held;
+use crate::control::status::{Held, Latch};
 use crate::proofs::any::{fallback, limits};
 use crate::proofs::pid::latch;
 use crate::proofs::properties::control::a_relay_experiment_is_bounded_and_ends;
@@ -38,18 +38,6 @@ fn any_result() -> Ultimate<f32> {
     }
 }
 
-fn any_phase() -> RelayPhase<f32> {
-    match kani::any::<u8>() {
-        0 => RelayPhase::Running,
-        1 => RelayPhase::Held(Fault::Dt),
-        2 => RelayPhase::Done(any_result()),
-        3 => RelayPhase::Failed(RelayFailure::OutputOutOfRange),
-        4 => RelayPhase::Failed(RelayFailure::NoOscillation),
-        5 => RelayPhase::Failed(RelayFailure::TimeOut),
-        _ => RelayPhase::Failed(RelayFailure::BadSamples(Fault::Measured)),
-    }
-}
-
 /// Any bit pattern, none of which a check has seen.
 fn any_state() -> RelayState<f32> {
     let cycle = Cycle {
@@ -68,12 +56,12 @@ fn any_state() -> RelayState<f32> {
             score: kani::any(),
             latch: latch(),
         },
-        phase: any_phase(),
         remaining: kani::any(),
         upper: kani::any::<bool>().then(|| kani::any()),
         cycle: kani::any::<bool>().then_some(cycle),
         mean: any_mean(),
         cycles: kani::any(),
+        result: kani::any::<bool>().then(any_result),
     }
 }
 
@@ -128,8 +116,8 @@ fn relay_from_any_state() {
     let before = state;
     let (dt, measured) = (kani::any(), kani::any());
     let kept = a_relay_experiment_is_bounded_and_ends(&relay, &mut state, dt, measured);
-    kani::cover!(before.phase.is_running() && matches!(state.phase, RelayPhase::Done(_)));
-    kani::cover!(state.phase == RelayPhase::Running && before.held.command.is_nan());
-    kani::cover!(state.phase == RelayPhase::Failed(RelayFailure::TimeOut) && before.remaining == 1);
+    kani::cover!(before.is_running() && state.result.is_some());
+    kani::cover!(state.is_running() && before.held.command.is_nan());
+    kani::cover!(state.held.latch == Latch::Safe(Fault::TimeOut) && before.remaining == 1);
     assert!(kept);
 }

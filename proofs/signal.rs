@@ -6,7 +6,7 @@ use super::properties::signal::*;
 use super::stubs;
 use bowden::control::limits::around;
 use bowden::control::{Limits, SmoothSign};
-use bowden::signal::{Biquad, BiquadState, EdgeStatus, EdgeVelocity, EdgeVelocityState};
+use bowden::signal::{Biquad, BiquadState, EdgeVelocity, EdgeVelocityState, RateStatus};
 use bowden::signal::{Derivative, DerivativeState, LowPass, LowPassState, Play, PlayState};
 use bowden::signal::{Implausible, Plausible, PlausibleState};
 use bowden::Real;
@@ -246,11 +246,11 @@ fn edge_velocity_any_sample() {
         let (position, dt): (f32, f32) = (kani::any(), kani::any());
         let mut state = before;
         let out = edges.step(&mut state, position, dt);
-        kani::cover!(out.status == EdgeStatus::Good && out.velocity > before.velocity());
-        kani::cover!(out.status == EdgeStatus::Stopped && before.velocity() > 1.0);
+        kani::cover!(out.status == RateStatus::Good && out.velocity > before.velocity());
+        kani::cover!(out.status == RateStatus::Stopped && before.velocity() > 1.0);
         assert!(out.velocity.is_finite());
         assert!(is_usable(position, dt) || out.velocity == before.velocity());
-        assert!(out.status != EdgeStatus::Stopped || out.velocity == 0.0);
+        assert!(out.status != RateStatus::Stopped || out.velocity == 0.0);
     }
 }
 

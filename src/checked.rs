@@ -249,7 +249,6 @@ finite_anyway! {
     [] crate::control::status::Latch;
     [] crate::control::End;
     [] crate::transmission::Mode;
-    [T] crate::control::RelayPhase<T>;
     [T] crate::hysteresis::BoucWen<T>;
     [T] crate::hysteresis::BoucWenState<T>;
 }

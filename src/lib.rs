@@ -84,6 +84,7 @@ mod checked;
 pub mod control;
 pub mod effect;
 mod error;
+mod fault;
 pub mod hysteresis;
 #[cfg(feature = "serde")]
 mod list;

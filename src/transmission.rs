@@ -200,15 +200,10 @@ impl<T: Real> Transmission<T> {
         let (gain, rho) = (self.gain.abs(), self.shape.rho());
         let bound = gain / (T::from_f64(2.0) * self.kappa_eta.abs() * rho);
         // 0/0 is a bound without a constraint.
-        let bound = if bound < T::from_f64(MOST) {
+        let bound = if bound < T::from_f64(MOST) && !self.is_aided() {
             bound
         } else {
             T::from_f64(MOST)
-        };
-        let bound = if self.is_aided() {
-            T::from_f64(MOST)
-        } else {
-            bound
         };
         self.rounded_down(bound, |sigma| self.turns_back(sigma, rho))
             .filter(|sigma| *sigma >= T::from_f64(0.5))

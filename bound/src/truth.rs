@@ -188,7 +188,7 @@ pub(super) fn bounded<T: Real>(value: T) -> Result<T, Error> {
 
 /// The form as published, which the continuous certificates require.
 pub(super) fn literal<T: Real, const N: usize>(law: &Adaptive<T, N>) -> Result<(), Error> {
-    if law.largest_step().is_some() {
+    if law.settings().largest_step().is_some() {
         return Err(Error::Inadmissible(
             "the gains must have the form as published",
         ));

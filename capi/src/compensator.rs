@@ -182,7 +182,7 @@ macro_rules! compensator {
                     let output = [<bowden_compensator_output_ $f>] {
                         command: output.command,
                         effects: output.effects,
-                        eta: output.eta,
+                        eta: state.eta(),
                         result,
                         fault,
                         regressor,

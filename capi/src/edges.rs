@@ -3,22 +3,12 @@
 use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_rates, told, Refused};
 use crate::settings::{marked, Marked};
-use core_bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState, RatesStatus};
+use core_bowden::signal::{EdgeVelocity, EdgeVelocityState};
 
 /// Size of a bowden_edge_velocity_f32 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F32_WORDS: usize = 8;
 /// Size of a bowden_edge_velocity_f64 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F64_WORDS: usize = 13;
-
-/// The code of a step, and the bad input.
-fn of_edges(status: EdgeStatus) -> (bowden_result, bowden_fault) {
-    match status {
-        EdgeStatus::Good => (bowden_result::Ok, bowden_fault::None),
-        EdgeStatus::Settling => (bowden_result::Settling, bowden_fault::None),
-        EdgeStatus::Stopped => (bowden_result::Stopped, bowden_fault::None),
-        EdgeStatus::Held(fault) => of_rates(RatesStatus::Held(fault)),
-    }
-}
 
 macro_rules! edges {
     ($f:ident, $magic:literal) => {
@@ -127,7 +117,7 @@ macro_rules! edges {
                     writable(out)?;
                     let (own, state) = kept(edges)?;
                     let output = own.step(state, position, dt);
-                    let (result, fault) = of_edges(output.status);
+                    let (result, fault) = of_rates(output.status);
                     let velocity = output.velocity;
                     write(out, [<bowden_edge_velocity_output_ $f>] { velocity, result, fault })?;
                     Ok(result)

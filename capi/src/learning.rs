@@ -216,7 +216,7 @@ macro_rules! learning {
                     let at = IterativeLearningInput { phase, reference, measured, learns };
                     let output = own.step(state, &at);
                     let (result, fault, _) = of_status(output.status);
-                    let feed_forward = output.feed_forward;
+                    let feed_forward = output.command;
                     write(out, [<bowden_iterative_learning_output_ $f>] { feed_forward, result, fault })?;
                     Ok(result)
                 })())

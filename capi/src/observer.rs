@@ -129,7 +129,7 @@ macro_rules! observer {
                     let (own, state) = kept(observer)?;
                     let output = own.step(state, &ObserverInput { dt, sent, measured });
                     let (result, fault, _) = of_status(output.status);
-                    let estimate = output.estimate;
+                    let estimate = output.command;
                     write(out, [<bowden_observer_output_ $f>] { estimate, result, fault })?;
                     Ok(result)
                 })())

@@ -1,11 +1,11 @@
 //! The relay experiment: ultimate gain and period of a loop, and the gains of a PI.
 
 use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
-use crate::result::{bowden_about, bowden_fault, bowden_result, code, told, Refused};
+use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
 use crate::settings::{marked, Marked};
 use crate::{bowden_fallback_f32, bowden_fallback_f64, bowden_limits_f32, bowden_limits_f64};
 use core_bowden::control::{
-    PiRule, Relay, RelayFailure, RelayOutput, RelayPhase, RelaySettings, RelayState, Ultimate,
+    Fault, Output, PiRule, Relay, RelaySettings, RelayState, Status, Ultimate,
 };
 
 /// Size of a bowden_relay_f32 in 64-bit words.
@@ -56,34 +56,15 @@ pub enum bowden_pi_rule {
     ZieglerNichols = 1,
 }
 
-/// The code of a phase, the bad input, the phase in C, and why the experiment failed.
-fn of_phase<T>(
-    phase: &RelayPhase<T>,
-) -> (
-    bowden_result,
-    bowden_fault,
-    bowden_relay_phase,
-    bowden_relay_failure,
-) {
-    use bowden_relay_failure as Failure;
-    let none = bowden_fault::None;
-    let (running, done) = (bowden_relay_phase::Running, bowden_relay_phase::Done);
-    let (fault, failure) = match phase {
-        RelayPhase::Running => return (bowden_result::Ok, none, running, Failure::None),
-        RelayPhase::Held(fault) => {
-            return (bowden_result::Held, (*fault).into(), running, Failure::None)
-        }
-        RelayPhase::Done(_) => return (bowden_result::Ok, none, done, Failure::None),
-        RelayPhase::Failed(RelayFailure::BadSamples(fault)) => {
-            ((*fault).into(), Failure::BadSamples)
-        }
-        RelayPhase::Failed(RelayFailure::OutputOutOfRange) => (none, Failure::OutputOutOfRange),
-        RelayPhase::Failed(RelayFailure::NoOscillation) => (none, Failure::NoOscillation),
-        RelayPhase::Failed(RelayFailure::TimeOut) => (none, Failure::TimeOut),
-        RelayPhase::Failed(_) => (none, Failure::Other),
-    };
-    let failed = bowden_relay_phase::Failed;
-    (bowden_result::Safe, fault, failed, failure)
+/// Why an experiment with this status failed.
+fn failure(status: Status) -> bowden_relay_failure {
+    match status {
+        Status::Safe(Fault::OutputOutOfRange) => bowden_relay_failure::OutputOutOfRange,
+        Status::Safe(Fault::NoOscillation) => bowden_relay_failure::NoOscillation,
+        Status::Safe(Fault::TimeOut) => bowden_relay_failure::TimeOut,
+        Status::Safe(_) => bowden_relay_failure::BadSamples,
+        _ => bowden_relay_failure::None,
+    }
 }
 
 macro_rules! relay {
@@ -219,18 +200,26 @@ macro_rules! relay {
             }
 
             impl [<bowden_relay_output_ $f>] {
-                fn of(output: &RelayOutput<$f>, cycles: u32) -> Self {
-                    let (result, fault, phase, failure) = of_phase(&output.phase);
-                    let ultimate = match output.phase {
-                        RelayPhase::Done(own) => [<bowden_ultimate_ $f>] {
+                fn of(output: &Output<$f>, state: &RelayState<$f>) -> Self {
+                    let (result, fault, _) = of_status(output.status);
+                    let failure = failure(output.status);
+                    let (fault, phase) = match failure {
+                        bowden_relay_failure::BadSamples => (fault, bowden_relay_phase::Failed),
+                        bowden_relay_failure::None if state.result().is_some() => {
+                            (fault, bowden_relay_phase::Done)
+                        }
+                        bowden_relay_failure::None => (fault, bowden_relay_phase::Running),
+                        _ => (bowden_fault::None, bowden_relay_phase::Failed),
+                    };
+                    let ultimate = state.result().map_or_else(Default::default, |own| {
+                        [<bowden_ultimate_ $f>] {
                             gain: own.gain,
                             period: own.period,
                             amplitude: own.amplitude,
                             duty: own.duty,
-                        },
-                        _ => [<bowden_ultimate_ $f>]::default(),
-                    };
-                    let command = output.command;
+                        }
+                    });
+                    let (command, cycles) = (output.command, state.cycles());
                     Self { command, result, fault, phase, failure, cycles, ultimate }
                 }
             }
@@ -288,7 +277,7 @@ macro_rules! relay {
                     writable(out)?;
                     let (own, state) = kept(relay)?;
                     let output = own.step(state, dt, measured);
-                    let output = [<bowden_relay_output_ $f>]::of(&output, state.cycles());
+                    let output = [<bowden_relay_output_ $f>]::of(&output, state);
                     write(out, output)?;
                     Ok(output.result)
                 })())

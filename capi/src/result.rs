@@ -3,7 +3,7 @@
 use crate::object::{read_text, write};
 use core::ffi::{c_char, CStr};
 use core_bowden::control::{Fault, Status};
-use core_bowden::signal::{RatesFault, RatesStatus};
+use core_bowden::signal::RateStatus;
 use core_bowden::Error;
 
 /// Result of a function: 0 for success; above zero if a sample was not good but the output was
@@ -220,6 +220,7 @@ impl From<Fault> for bowden_fault {
             Fault::Regressor(_) => Self::Regressor,
             Fault::Overflow => Self::Overflow,
             Fault::Phase => Self::Phase,
+            Fault::Position => Self::Position,
             _ => Self::Other,
         }
     }
@@ -244,22 +245,15 @@ pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
 }
 
 /// The code of a step of the rates, and what was wrong.
-pub(crate) fn of_rates(status: RatesStatus) -> (bowden_result, bowden_fault) {
-    match status {
-        RatesStatus::Good => (bowden_result::Ok, bowden_fault::None),
-        RatesStatus::Settling => (bowden_result::Settling, bowden_fault::None),
-        RatesStatus::Resumed => (bowden_result::Resumed, bowden_fault::None),
-        RatesStatus::Held(fault) => {
-            let fault = match fault {
-                RatesFault::Position => bowden_fault::Position,
-                RatesFault::Dt => bowden_fault::Dt,
-                RatesFault::DtNotPositive => bowden_fault::DtNotPositive,
-                RatesFault::Overflow => bowden_fault::Overflow,
-                _ => bowden_fault::Other,
-            };
-            (bowden_result::Held, fault)
-        }
-    }
+pub(crate) fn of_rates(status: RateStatus) -> (bowden_result, bowden_fault) {
+    let code = match status {
+        RateStatus::Good => bowden_result::Ok,
+        RateStatus::Settling => bowden_result::Settling,
+        RateStatus::Resumed => bowden_result::Resumed,
+        RateStatus::Stopped => bowden_result::Stopped,
+        RateStatus::Held(fault) => return (bowden_result::Held, fault.into()),
+    };
+    (code, bowden_fault::None)
 }
 
 /// A sentence about a result, for a log: ASCII, static, and never null, even for an unknown number.

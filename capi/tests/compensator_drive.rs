@@ -74,8 +74,9 @@ macro_rules! drive {
                     unsafe { [<bowden_compensator_step_ $f>](&mut in_c, &sample, &mut out) };
                     let expected = own.step(&mut state, &at);
                     assert_eq!(out.command.to_bits(), expected.command.to_bits(), "{k}");
-                    assert_eq!(out.eta.to_bits(), expected.eta.to_bits(), "{k}");
-                    differs += u32::from(own.step(&mut untold, &at).eta != expected.eta);
+                    assert_eq!(out.eta.to_bits(), state.eta().to_bits(), "{k}");
+                    own.step(&mut untold, &at);
+                    differs += u32::from(untold.eta() != state.eta());
                     let given = 0.7 * expected.command;
                     let applied = match k % 11 {
                         2 | 3 => Applied::Command(given),

@@ -93,7 +93,7 @@ macro_rules! learning {
                         (wanted, wanted, fault),
                         "{k}"
                     );
-                    let (one, other) = (out.feed_forward, expected.feed_forward);
+                    let (one, other) = (out.feed_forward, expected.command);
                     assert_eq!(one.to_bits(), other.to_bits(), "{k}");
                     // After another start, with what was learned before it, in another object.
                     if k == 3000 {

@@ -6,7 +6,7 @@ mod objects;
 
 use bowden::*;
 use core_bowden::control::{
-    Fallback, Limits, PiRule, Relay, RelayFailure, RelayPhase, RelaySettings, RelayState,
+    Fallback, Fault, Limits, PiRule, Relay, RelaySettings, RelayState, Status,
 };
 use objects::blank;
 use std::ptr::{null, null_mut};
@@ -81,24 +81,22 @@ macro_rules! relay {
                     let expected = own.step(&mut state, dt, y);
                     assert_eq!(last.command.to_bits(), expected.command.to_bits(), "{k}");
                     assert_eq!((last.result, last.cycles), (result, state.cycles()), "{k}");
-                    let (wanted, phase) = match expected.phase {
-                        RelayPhase::Running => (bowden_result::Ok, bowden_relay_phase::Running),
-                        RelayPhase::Held(_) => (bowden_result::Held, bowden_relay_phase::Running),
-                        RelayPhase::Done(_) => (bowden_result::Ok, bowden_relay_phase::Done),
-                        RelayPhase::Failed(_) => (bowden_result::Safe, bowden_relay_phase::Failed),
+                    let (wanted, phase) = match expected.status {
+                        Status::Good if state.result().is_some() => {
+                            (bowden_result::Ok, bowden_relay_phase::Done)
+                        }
+                        Status::Held(_) => (bowden_result::Held, bowden_relay_phase::Running),
+                        Status::Safe(_) => (bowden_result::Safe, bowden_relay_phase::Failed),
+                        _ => (bowden_result::Ok, bowden_relay_phase::Running),
                     };
                     assert_eq!((result, last.phase), (wanted, phase), "{k}");
-                    let failure = match expected.phase {
-                        RelayPhase::Failed(RelayFailure::BadSamples(_)) => {
-                            bowden_relay_failure::BadSamples
-                        }
-                        RelayPhase::Failed(RelayFailure::OutputOutOfRange) => {
+                    let failure = match expected.status {
+                        Status::Safe(Fault::OutputOutOfRange) => {
                             bowden_relay_failure::OutputOutOfRange
                         }
-                        RelayPhase::Failed(RelayFailure::NoOscillation) => {
-                            bowden_relay_failure::NoOscillation
-                        }
-                        RelayPhase::Failed(_) => bowden_relay_failure::TimeOut,
+                        Status::Safe(Fault::NoOscillation) => bowden_relay_failure::NoOscillation,
+                        Status::Safe(Fault::TimeOut) => bowden_relay_failure::TimeOut,
+                        Status::Safe(_) => bowden_relay_failure::BadSamples,
                         _ => bowden_relay_failure::None,
                     };
                     assert_eq!(last.failure, failure, "{k}");
@@ -109,7 +107,7 @@ macro_rules! relay {
                     for (rule, own_rule) in [(0, PiRule::TyreusLuyben), (1, PiRule::ZieglerNichols)] {
                         let told =
                             unsafe { [<bowden_relay_gains_ $f>](&last.ultimate, rule, &mut gains) };
-                        let RelayPhase::Done(ultimate) = expected.phase else {
+                        let Some(ultimate) = state.result() else {
                             assert_eq!(told, bowden_result::ErrorOutOfRange);
                             assert_eq!((gains.k_p, gains.k_i), (7.0, 7.0));
                             continue;

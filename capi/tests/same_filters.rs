@@ -7,8 +7,8 @@ mod signal;
 
 use bowden::*;
 use core_bowden::signal::{
-    Biquad, BiquadState, EdgeStatus, EdgeVelocity, EdgeVelocityState, Implausible, LowPass,
-    LowPassState, Plausible, PlausibleState,
+    Biquad, BiquadState, EdgeVelocity, EdgeVelocityState, Implausible, LowPass, LowPassState,
+    Plausible, PlausibleState, RateStatus,
 };
 use objects::blank;
 use signal::Signal;
@@ -113,10 +113,10 @@ macro_rules! filters {
                         };
                         let expected = own.step(&mut state, x, dt);
                         let (wanted, kind) = match expected.status {
-                            EdgeStatus::Good => (bowden_result::Ok, 0),
-                            EdgeStatus::Settling => (bowden_result::Settling, 1),
-                            EdgeStatus::Stopped => (bowden_result::Stopped, 2),
-                            EdgeStatus::Held(_) => (bowden_result::Held, 3),
+                            RateStatus::Good => (bowden_result::Ok, 0),
+                            RateStatus::Settling => (bowden_result::Settling, 1),
+                            RateStatus::Stopped => (bowden_result::Stopped, 2),
+                            RateStatus::Resumed | RateStatus::Held(_) => (bowden_result::Held, 3),
                         };
                         seen[kind] += 1;
                         assert_eq!((result, out.result), (wanted, wanted), "{k}");

@@ -381,7 +381,7 @@ macro_rules! observer {
                     };
                     assert_eq!((result, out.result), (wanted, wanted), "{k}");
                     assert_eq!(out.fault == bowden_fault::None, good);
-                    assert_eq!(out.estimate.to_bits(), expected.estimate.to_bits(), "{k}");
+                    assert_eq!(out.estimate.to_bits(), expected.command.to_bits(), "{k}");
                     if k == 3000 {
                         assert_eq!(unsafe { $reset(&mut observer) }, bowden_result::Ok);
                         state = ObserverState::new();

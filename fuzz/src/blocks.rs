@@ -4,7 +4,7 @@ use crate::numbers::Numbers;
 use crate::properties::control::a_relay_experiment_is_bounded_and_ends;
 use bowden::control::{Relay, RelaySettings, RelayState};
 use bowden::signal::{Biquad, BiquadState, LowPass, LowPassState};
-use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
+use bowden::signal::{EdgeVelocity, EdgeVelocityState, RateStatus};
 use bowden::Constant;
 
 /// Whether a filter may use a sample.
@@ -126,7 +126,7 @@ pub fn edges_run(from: &mut Numbers) -> Option<()> {
         if dt.is_finite() && dt > 0.0 {
             gap = (gap + f64::from(dt)).min(f64::from(f32::MAX));
         }
-        if matches!(status, EdgeStatus::Held(_)) {
+        if matches!(status, RateStatus::Held(_)) {
             continue;
         }
         if last == Some(position) {
@@ -147,14 +147,14 @@ pub fn edges_step(
     state: &mut EdgeVelocityState<f32>,
     position: f32,
     dt: f32,
-) -> EdgeStatus {
+) -> RateStatus {
     let before = state.velocity();
     let out = edges.step(state, position, dt);
     assert!(out.velocity.is_finite() && out.velocity == state.velocity());
     let bad = !is_usable(position, dt);
-    assert!(bad == matches!(out.status, EdgeStatus::Held(_)));
+    assert!(bad == matches!(out.status, RateStatus::Held(_)));
     assert!(!bad || out.velocity == before);
-    assert!(out.status != EdgeStatus::Stopped || out.velocity == 0.0);
+    assert!(out.status != RateStatus::Stopped || out.velocity == 0.0);
     out.status
 }
 

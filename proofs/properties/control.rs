@@ -1,12 +1,12 @@
 //! Controllers: the command, the state, the limits.
 
-use bowden::control::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, Limits};
+use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms, Limits, Telemetry};
 use bowden::control::{AntiWindup, DerivativeSource, Fallback, Fault, OnMissing, Status};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
 use bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 use bowden::control::{Pid, PidInput, PidSettings, PidState};
-use bowden::control::{Relay, RelayFailure, RelayPhase, RelayState};
+use bowden::control::{Relay, RelayState};
 use bowden::signal::clamp;
 
 /// The command nearest to what is wanted: within the range, and within the slew rate of
@@ -345,7 +345,7 @@ pub fn compensator_commands_are_finite<const N: usize>(
     let counted = state.consecutive_bad() == before.consecutive_bad().saturating_add(1);
     out.command.is_finite()
         && out.effects.is_finite()
-        && out.eta.abs() <= 1.0
+        && state.eta().abs() <= 1.0
         && out.command == state.command()
         && match out.status {
             Status::Good => usable && state.consecutive_bad() == 0,
@@ -359,7 +359,7 @@ pub fn compensator_commands_are_finite<const N: usize>(
 pub fn the_lag_does_not_pass_its_target<const N: usize>(
     before: f32,
     owed: f32,
-    out: &AdaptiveOutput<f32, N>,
+    out: &Telemetry<f32, AdaptiveTerms<f32, N>>,
 ) -> bool {
     let wanted = out.terms.beta_hat * out.terms.virtual_command;
     let farthest = before + (wanted - before);
@@ -389,8 +389,8 @@ pub fn estimates_keep_their_limit(
         Status::Held(fault) => good == (fault == Fault::Overflow),
         Status::Degraded(_) | Status::Safe(_) => false,
     };
-    let held = out.status == Status::Good || !within(before) || out.estimate == before;
-    within(out.estimate) && out.estimate == state.estimate() && told && held
+    let held = out.status == Status::Good || !within(before) || out.command == before;
+    within(out.command) && out.command == state.estimate() && told && held
 }
 
 /// The feed-forward of a learning is finite and within its limit, and so is each cell that has
@@ -418,12 +418,12 @@ pub fn learning_keeps_its_limit<M: AsRef<[f32]> + AsMut<[f32]>>(
         Status::Degraded(Fault::Reference) => phase && !at.reference.is_finite(),
         Status::Degraded(Fault::Measured) => phase && !at.measured.is_finite(),
         Status::Held(Fault::Phase) => {
-            !phase && cells.clone().all(same) && (!within(last) || out.feed_forward == last)
+            !phase && cells.clone().all(same) && (!within(last) || out.command == last)
         }
         _ => false,
     };
     let learned = cells.all(|(now, was)| within(*now) || same((now, was)));
-    within(out.feed_forward) && out.feed_forward == state.feed_forward() && told && learned
+    within(out.command) && out.command == state.feed_forward() && told && learned
 }
 
 /// From **any** state, the command of a relay experiment is finite and within the limits: a level or
@@ -442,26 +442,27 @@ pub fn a_relay_experiment_is_bounded_and_ends(
     let levels = [s.centre + s.amplitude, s.centre - s.amplitude];
     let good = dt > 0.0 && dt <= s.longest_dt && measured.is_finite();
     let over = state.remaining() == 0;
-    let ran = before.phase().is_running() && !before.is_latched();
-    let right = match out.phase {
-        RelayPhase::Running => ran && good && levels.contains(&out.command),
-        RelayPhase::Held(_) => ran && !good && out.command == held,
-        RelayPhase::Done(it) => {
+    let ran = before.is_running();
+    let right = match (out.status, state.result()) {
+        (Status::Good, None) => ran && good && levels.contains(&out.command),
+        (Status::Good, Some(it)) => {
             // A result that this sample has completed is one of finite numbers.
             let finite = it.gain.is_finite() && it.period.is_finite();
             out.command == s.centre && (!ran || (good && finite))
         }
-        RelayPhase::Failed(reason) => {
+        (Status::Held(_), _) => ran && !good && out.command == held,
+        (Status::Safe(reason), _) => {
             let told = match reason {
-                RelayFailure::BadSamples(_) => !good,
-                RelayFailure::OutputOutOfRange => good,
-                _ => over,
+                Fault::OutputOutOfRange => good,
+                Fault::NoOscillation | Fault::TimeOut => over,
+                _ => !good,
             };
             s.fallback.command() == Some(out.command) && state.is_latched() && (!ran || told)
         }
+        (Status::Degraded(_), _) => false,
     };
     let ends = !ran || state.remaining() < before.remaining() || over;
-    let stays = ran || (!out.phase.is_running() && state.remaining() == before.remaining());
-    let goes_on = !out.phase.is_running() || !over;
+    let stays = ran || (!state.is_running() && state.remaining() == before.remaining());
+    let goes_on = !state.is_running() || !over;
     right && ends && stays && goes_on && s.limits.contains(out.command)
 }

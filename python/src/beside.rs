@@ -72,7 +72,7 @@ impl Beside {
         let observed = observed.map(|(observer, state)| {
             let (dt, measured) = (at.dt, at.measured);
             let seen = observer.step(state, &ObserverInput { dt, sent, measured });
-            (seen.estimate, code::status(seen.status))
+            (seen.command, code::status(seen.status))
         });
         let learned = self.learning.as_ref().zip(self.memory.learning.as_mut());
         let learned = learned.map(|(own, state)| {
@@ -82,7 +82,7 @@ impl Beside {
                 ..IterativeLearningInput::new(phase, at.reference, at.measured)
             };
             let out = own.learning.step(state, &at);
-            (out.feed_forward, code::status(out.status))
+            (out.command, code::status(out.status))
         });
         let both = [observed, learned];
         let added = both.iter().flatten().map(|(added, _)| added).sum();

@@ -1,7 +1,7 @@
 //! Statuses and faults as small numbers: one byte per sample, named in the Python package.
 
 use bowden::control::{Fault, Status};
-use bowden::signal::{EdgeStatus, Implausible, RatesFault, RatesStatus};
+use bowden::signal::{Implausible, RateStatus};
 
 /// A status and its fault; zero if there is none.
 pub type Codes = (u8, u8);
@@ -30,40 +30,20 @@ pub fn fault(fault: Fault) -> u8 {
         Fault::Command => 8,
         Fault::Overflow => 9,
         Fault::Phase => 10,
+        Fault::Position => 12,
         Fault::Regressor(index) => 16_u8.saturating_add(index),
         // The core may learn of more; it is then a fault without a name here.
         _ => 11,
     }
 }
 
-/// 0 good, 1 settling, 2 resumed, 3 held.
-pub fn rates(status: RatesStatus) -> Codes {
+/// 0 good, 1 settling, 2 resumed or (for counts) stopped, 3 held.
+pub fn rates(status: RateStatus) -> Codes {
     match status {
-        RatesStatus::Good => (0, 0),
-        RatesStatus::Settling => (1, 0),
-        RatesStatus::Resumed => (2, 0),
-        RatesStatus::Held(fault) => (3, unused(fault)),
-    }
-}
-
-/// 0 good, 1 settling, 2 stopped, 3 held.
-pub fn edges(status: EdgeStatus) -> Codes {
-    match status {
-        EdgeStatus::Good => (0, 0),
-        EdgeStatus::Settling => (1, 0),
-        EdgeStatus::Stopped => (2, 0),
-        EdgeStatus::Held(fault) => (3, unused(fault)),
-    }
-}
-
-/// Why a position was not used.
-fn unused(fault: RatesFault) -> u8 {
-    match fault {
-        RatesFault::Dt => 1,
-        RatesFault::DtNotPositive => 2,
-        RatesFault::Position => 12,
-        RatesFault::Overflow => 9,
-        _ => 11,
+        RateStatus::Good => (0, 0),
+        RateStatus::Settling => (1, 0),
+        RateStatus::Resumed | RateStatus::Stopped => (2, 0),
+        RateStatus::Held(bad) => (3, fault(bad)),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::code;
 use crate::lanes::read;
 use crate::signal::{Block, Out};
-use bowden::control::{PiRule, Relay, RelayFailure, RelayPhase, RelayState, Ultimate};
+use bowden::control::{Fault, PiRule, Relay, RelayState, Status, Ultimate};
 use pyo3::prelude::*;
 
 impl Block for Relay<f64> {
@@ -15,7 +15,7 @@ impl Block for Relay<f64> {
 
     fn step(&self, state: &mut RelayState<f64>, sample: f64, dt: f64, _: bool) -> Out {
         let out = Self::step(self, state, dt, sample);
-        let (phase, fault) = phase(&out.phase);
+        let (phase, fault) = phase(out.status, state);
         ([out.command, 0.0, 0.0], phase, fault)
     }
 
@@ -25,17 +25,15 @@ impl Block for Relay<f64> {
 }
 
 /// 0 running, 1 held, 2 done, the others failures; and the fault of a bad sample.
-fn phase(phase: &RelayPhase<f64>) -> code::Codes {
-    match phase {
-        RelayPhase::Running => (0, 0),
-        RelayPhase::Held(fault) => (1, code::fault(*fault)),
-        RelayPhase::Done(_) => (2, 0),
-        RelayPhase::Failed(RelayFailure::BadSamples(fault)) => (3, code::fault(*fault)),
-        RelayPhase::Failed(RelayFailure::OutputOutOfRange) => (4, 0),
-        RelayPhase::Failed(RelayFailure::NoOscillation) => (5, 0),
-        RelayPhase::Failed(RelayFailure::TimeOut) => (6, 0),
-        // The core may learn of more; it is then a failure without a name here.
-        RelayPhase::Failed(_) => (7, 0),
+fn phase(status: Status, state: &RelayState<f64>) -> code::Codes {
+    match status {
+        Status::Good if state.result().is_some() => (2, 0),
+        Status::Good | Status::Degraded(_) => (0, 0),
+        Status::Held(fault) => (1, code::fault(fault)),
+        Status::Safe(Fault::OutputOutOfRange) => (4, 0),
+        Status::Safe(Fault::NoOscillation) => (5, 0),
+        Status::Safe(Fault::TimeOut) => (6, 0),
+        Status::Safe(fault) => (3, code::fault(fault)),
     }
 }
 

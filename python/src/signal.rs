@@ -60,7 +60,7 @@ impl Block for EdgeVelocity<f64> {
 
     fn step(&self, state: &mut EdgeVelocityState<f64>, sample: f64, dt: f64, _: bool) -> Out {
         let out = Self::step(self, state, sample, dt);
-        let (status, fault) = code::edges(out.status);
+        let (status, fault) = code::rates(out.status);
         ([out.velocity, 0.0, 0.0], status, fault)
     }
 }

@@ -12,10 +12,10 @@
 //! destroys the hysteresis state ([`transmission`](crate::transmission)). The model runs in open
 //! loop, so its state differs from the plant's state by the model error.
 
-use super::status::{fault_of_dt, unless_finite};
 use super::{Fault, Status};
 use crate::effect::{Effect, Inputs, Motion};
 use crate::error::finite;
+use crate::fault::{fault_of_dt, unless_finite};
 use crate::hysteresis::BoucWenState;
 use crate::model::{Model, ModelState, Sample, Source};
 use crate::signal::{clamp, Play, PlayState};
@@ -68,8 +68,6 @@ crate::data! {
         pub status: Status,
         /// Contribution of the effects to the output \[output unit\], zero on a bad sample.
         pub effects: T,
-        /// The model's hysteresis state, within ±1.
-        pub eta: T,
     }
 
     /// Range of one source in the bench record: the effects do not extrapolate beyond it.
@@ -310,7 +308,6 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             command: state.command(),
             status,
             effects,
-            eta: state.eta(),
         }
     }
 
@@ -335,7 +332,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
             channels,
         };
         if let Some(term) = self.effects.first_blind_term(&sample) {
-            return Err(Fault::Regressor(u8::try_from(term).unwrap_or(u8::MAX)));
+            return Err(Fault::of_regressor(term));
         }
         let clamp = |term, there: &mut Inputs<T>| self.clamp(term, there);
         let memories = &mut state.effects;

@@ -38,22 +38,10 @@ pub fn first_order_increment<T: Real>(h: T, lambda: T, way: T) -> T {
     h * lambda * way
 }
 
-/// (20): `alpha·u = u_bar - alpha·beta_error·u_bar` with `beta_error = 1/alpha - beta_hat`.
-#[inline]
-pub fn plant_command<T: Real>(alpha: T, beta_error: T, u_bar: T) -> T {
-    u_bar - alpha * beta_error * u_bar
-}
-
 /// (21): rate of the accumulated error, `z' = e = s - lambda·z`.
 #[inline]
 pub fn z_rate<T: Real>(s: T, lambda: T, z: T) -> T {
     s - lambda * z
-}
-
-/// (22): rate of the filtered error, `s' = e' + lambda·e`.
-#[inline]
-pub fn s_rate<T: Real>(e_rate: T, lambda: T, e: T) -> T {
-    e_rate + lambda * e
 }
 
 /// (23), first part: `-k·s + y_r`.
@@ -118,3 +106,6 @@ pub fn smooth_sign<T: Real>(x: T) -> T {
 pub fn clamped_sign<T: Real>(x: T) -> T {
     clamp(x, -T::one(), T::one())
 }
+
+#[cfg(test)]
+mod tests;

@@ -27,9 +27,9 @@
 //! second paper, a proportional law with such a feed-forward had the smallest error of nine
 //! methods.
 
-use super::status::unless_finite;
-use super::{Fault, Status};
+use super::{Fault, Output, Status};
 use crate::error::{above_zero, must_be_finite, not_below_zero, rarely};
+use crate::fault::unless_finite;
 use crate::signal::confined;
 use crate::{Error, Real};
 
@@ -67,7 +67,7 @@ crate::checked::stored! {
     /// for k in 0..2000 {
     ///     let phase = (k % 1000) as f32 / 1000.0;
     ///     let at = IterativeLearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
-    ///     let out = learning.step(&mut state, &at); // out.feed_forward into LoopSample
+    ///     let out = learning.step(&mut state, &at); // out.command into LoopSample
     ///     // Held means no phase: after a few such samples, omit the feed-forward.
     ///     assert!(!matches!(out.status, Status::Held(_)));
     /// }
@@ -114,18 +114,6 @@ impl<T: Real> IterativeLearningInput<T> {
             measured,
             learns: true,
         }
-    }
-}
-
-crate::data! {
-    /// Output of an [`IterativeLearning`]'s step.
-    pub struct IterativeLearningOutput<T> {
-        /// Value to add to the command \[command unit\]: always finite and within ±limit.
-        pub feed_forward: T,
-        /// Good: a good sample. [`Status::Degraded`]: the feed-forward belongs to this phase, but
-        /// the error was unusable or the phase has jumped. [`Status::Held`]: the phase is invalid,
-        /// and the last feed-forward stays.
-        pub status: Status,
     }
 }
 
@@ -261,6 +249,10 @@ impl<T: Real> IterativeLearning<T> {
 
     /// Processes one sample and returns the value to add to the command at this phase.
     ///
+    /// The status is [`Status::Degraded`] if the feed-forward belongs to this phase, but the error
+    /// was unusable or the phase has jumped. [`Status::Held`] means that the phase is invalid: the
+    /// last feed-forward stays.
+    ///
     /// Call this method at every sample, before the controller, with the state of this learning.
     /// For any state and buffers the feed-forward is finite and within ±limit. A jump of the phase
     /// causes a jump of the feed-forward. A slew-rate limit in the controller's
@@ -285,7 +277,7 @@ impl<T: Real> IterativeLearning<T> {
         &self,
         state: &mut IterativeLearningState<T, M>,
         at: &IterativeLearningInput<T>,
-    ) -> IterativeLearningOutput<T> {
+    ) -> Output<T> {
         let status = match state.place(at.phase) {
             Some((cell, part)) => {
                 let fault = self.gather(state, cell, at);
@@ -301,10 +293,8 @@ impl<T: Real> IterativeLearning<T> {
             state.missed = state.missed.saturating_add(1);
         }
         state.output = self.confined(state.output);
-        IterativeLearningOutput {
-            feed_forward: state.output,
-            status,
-        }
+        let command = state.output;
+        Output { command, status }
     }
 
     /// Adds a sample to the mean of its cell after earlier cells have learned; returns the

@@ -109,12 +109,9 @@ impl<T: Real> Limits<T> {
         };
         clamp(reachable, self.low, self.high)
     }
-}
 
-impl<T: Real> Limits<T> {
-    /// The command within the range that is nearest to `command`.
-    ///
-    /// For NaN, this is the command nearest to zero.
+    /// The command within the range that is nearest to `command`. For NaN it is the one nearest
+    /// to zero.
     #[inline]
     #[must_use]
     pub fn clamp(&self, command: T) -> T {

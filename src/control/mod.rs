@@ -28,13 +28,12 @@
 //! | [`IterativeLearning`] | feed-forward learned from the error of earlier cycles | |
 //! | [`Relay`] | relay experiment that measures ultimate gain and period, for PI gains | |
 //!
-//! [`Controller`] is the common interface of the first two rows. [`law`] contains the equations of the
-//! adaptive law, one function each.
+//! [`Controller`] is the common interface of the first two rows.
 
 mod adaptive;
 mod compensator;
 mod controller;
-pub mod law;
+mod law;
 mod learning;
 pub(crate) mod limits;
 mod observer;
@@ -42,27 +41,19 @@ pub(crate) mod pid;
 mod relay;
 pub(crate) mod status;
 
+pub use crate::fault::Fault;
 pub(crate) use adaptive::End;
 pub use adaptive::{
-    Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveSettings, AdaptiveState, AdaptiveTerms,
-    Disturbance, ErrorState, Estimator, Form, LagRecursion, Leakage, OnMissing, SmoothSign,
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AdaptiveTerms, Disturbance,
+    ErrorState, Estimator, Form, LagRecursion, Leakage, OnMissing, SmoothSign,
 };
 pub use compensator::{
     BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
 };
-pub use controller::{Controller, LoopSample, Output};
-pub use learning::{
-    IterativeLearning, IterativeLearningInput, IterativeLearningOutput, IterativeLearningState,
-};
+pub use controller::{Controller, LoopSample, Output, Telemetry};
+pub use learning::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 pub use limits::Limits;
-pub use observer::{
-    DisturbanceObserver, NominalPlant, ObserverInput, ObserverOutput, ObserverState,
-};
-pub use pid::{
-    AntiWindup, DerivativeSource, Pid, PidInput, PidOutput, PidSettings, PidState, PidTerms,
-};
-pub use relay::{
-    PiGains, PiRule, Relay, RelayFailure, RelayOutput, RelayPhase, RelaySettings, RelayState,
-    Ultimate,
-};
-pub use status::{Applied, Fallback, Fault, Status};
+pub use observer::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
+pub use pid::{AntiWindup, DerivativeSource, Pid, PidInput, PidSettings, PidState, PidTerms};
+pub use relay::{PiGains, PiRule, Relay, RelaySettings, RelayState, Ultimate};
+pub use status::{Applied, Fallback, Status};

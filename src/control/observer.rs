@@ -22,9 +22,9 @@
 //! Source: T. Umeno, Y. Hori, "Robust speed control of DC servomotors using modern two
 //! degrees-of-freedom controller design", *IEEE Trans. Industrial Electronics* 38(5), 1991.
 
-use super::status::{fault_of_dt, unless_finite};
-use super::{Fault, Status};
+use super::{Fault, Output, Status};
 use crate::error::{above_zero, is_usable, not_below_zero, rarely};
+use crate::fault::{fault_of_dt, unless_finite};
 use crate::signal::{clamp, confined, gap_after};
 use crate::{Error, Real};
 
@@ -70,7 +70,7 @@ crate::checked::stored! {
     /// let (dt, measured) = (0.001, 3.0); // [s], [N·m]: each tick, from the clock and the sensor
     /// let sent = Controller::command(&pi, &state); // the applied command of the last tick
     /// let seen = observer.step(&mut observed, &ObserverInput { dt, sent, measured });
-    /// let sample = LoopSample { feed_forward: seen.estimate, ..LoopSample::new(dt, 5.0, measured) };
+    /// let sample = LoopSample { feed_forward: seen.command, ..LoopSample::new(dt, 5.0, measured) };
     /// let out = Controller::step(&pi, &mut state, &sample);
     /// assert!(limits.contains(out.command));
     /// # Ok(())
@@ -104,16 +104,6 @@ pub struct ObserverInput<T> {
     pub sent: T,
     /// Measured output y \[output unit\], such as \[N·m\].
     pub measured: T,
-}
-
-crate::data! {
-    /// Output of a [`DisturbanceObserver`]'s step.
-    pub struct ObserverOutput<T> {
-        /// d_hat \[command unit\], the value to add to the command: always finite and within ±limit.
-        pub estimate: T,
-        /// A good sample, or the fault; a fault holds the estimate.
-        pub status: Status,
-    }
 }
 
 crate::checked! {
@@ -189,7 +179,7 @@ impl<T: Real> DisturbanceObserver<T> {
     /// unusable, its time counts as equal to the next `dt`. For any state the estimate is finite
     /// and within ±limit.
     #[inline]
-    pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> ObserverOutput<T> {
+    pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Output<T> {
         let status = if self.advance(state, at) {
             Status::Good
         } else {
@@ -197,10 +187,8 @@ impl<T: Real> DisturbanceObserver<T> {
             Status::Held(self.refused(state, at))
         };
         state.estimate = confined(state.estimate, -self.limit, self.limit);
-        ObserverOutput {
-            estimate: state.estimate,
-            status,
-        }
+        let command = state.estimate;
+        Output { command, status }
     }
 
     /// Advances the state by a good sample. `false` leaves the state unchanged: a number cannot

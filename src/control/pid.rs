@@ -25,12 +25,12 @@ pub(crate) mod state;
 mod step;
 
 pub use settings::{AntiWindup, DerivativeSource, PidSettings};
-pub use signals::{PidInput, PidOutput, PidTerms};
+pub use signals::{PidInput, PidTerms};
 pub use state::PidState;
 
-use super::status::{fault_of_dt, unless_finite};
-use super::{Applied, Fault, Output, Status};
+use super::{Applied, Fault, Output, Status, Telemetry};
 use crate::error::is_usable;
+use crate::fault::{fault_of_dt, unless_finite};
 use crate::signal::{clamp, wrapped, Compensated, Derivative};
 use crate::Real;
 use state::Last;
@@ -147,13 +147,12 @@ impl<T: Real> Pid<T> {
 
     /// The same step, with every term for telemetry: the result of [`terms`](Self::terms) after the
     /// step.
-    pub fn step_with_terms(&self, state: &mut PidState<T>, at: &PidInput<T>) -> PidOutput<T> {
-        let Output { command, status } = self.step(state, at);
-        PidOutput {
-            command,
-            status,
-            terms: self.terms(state),
-        }
+    pub fn step_with_terms(
+        &self,
+        state: &mut PidState<T>,
+        at: &PidInput<T>,
+    ) -> Telemetry<T, PidTerms<T>> {
+        self.step(state, at).with(self.terms(state))
     }
 
     /// Every term of the last good sample; all terms are zero before the first one.

@@ -45,9 +45,9 @@ pub use settings::RelaySettings;
 pub use state::RelayState;
 pub use ultimate::{PiGains, PiRule, Ultimate};
 
-use super::status::{fault_of_dt, unless_finite, Latch};
-use super::{Fault, Status};
+use super::{Fault, Output, Status};
 use crate::error::is_usable;
+use crate::fault::{fault_of_dt, unless_finite};
 use crate::Real;
 use state::{Cycle, Mean};
 
@@ -62,7 +62,7 @@ mod proofs;
 ///
 /// ```
 /// use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState, PiRule};
-/// use bowden::control::{Relay, RelayPhase, RelaySettings, RelayState};
+/// use bowden::control::{Relay, RelaySettings, RelayState};
 /// let (limits, fallback) = (Limits::try_new(-20.0, 60.0)?, Fallback::try_new(20, 0.0)?);
 /// let relay = Relay::try_new(RelaySettings {
 ///     reference: 5.0,      // [N·m]
@@ -82,7 +82,7 @@ mod proofs;
 /// let dt = 0.01;
 /// let ended = loop {
 ///     let out = relay.step(&mut state, dt, lags[2]);
-///     if !out.phase.is_running() {
+///     if !state.is_running() {
 ///         break out;
 ///     }
 ///     // A plant of three lags of 0.1 s and gain 0.5.
@@ -91,8 +91,8 @@ mod proofs;
 ///         *lag += (input - *lag) * dt / 0.1;
 ///     }
 /// };
-/// let RelayPhase::Done(ultimate) = ended.phase else {
-///     panic!("{:?}", ended.phase)
+/// let Some(ultimate) = state.result() else {
+///     panic!("{:?}", ended.status)
 /// };
 ///
 /// // A PI with these gains, which continues from the applied command.
@@ -110,64 +110,6 @@ pub struct Relay<T> {
     settings: RelaySettings<T>,
 }
 
-crate::data! {
-    /// Cause of a failed relay experiment; the safe command is applied.
-    #[derive(Eq, Hash)]
-    #[non_exhaustive]
-    pub enum RelayFailure {
-        /// Too many bad samples; see [`Fallback`](super::Fallback). The value is the fault of the last
-        /// one.
-        BadSamples(Fault),
-        /// The output was further from the reference than `most_deviation`.
-        ///
-        /// Choose a smaller amplitude, a centre that holds the reference, or the other sign of the
-        /// amplitude.
-        OutputOutOfRange,
-        /// `longest_time` has passed and the relay has not completed a cycle.
-        ///
-        /// The amplitude does not move the output through the reference, its sign is wrong, or the time
-        /// is too short for two periods.
-        NoOscillation,
-        /// `longest_time` has passed and the cycles did not agree with each other.
-        ///
-        /// The time is too short, the noise exceeds the hysteresis, or a cycle has fewer than
-        /// `2/agreement` samples.
-        TimeOut,
-    }
-
-    /// Phase of a relay experiment.
-    #[derive(Default)]
-    pub enum RelayPhase<T> {
-        /// The relay switches.
-        #[default]
-        Running,
-        /// A bad sample: the last command is held and no cycle ends.
-        Held(Fault),
-        /// The experiment has succeeded: the relay applies the centre.
-        Done(Ultimate<T>),
-        /// The experiment has failed: the safe command is applied until
-        /// [`RelayState::acknowledge`].
-        Failed(RelayFailure),
-    }
-}
-
-impl<T: Real> RelayPhase<T> {
-    /// Whether the experiment is still running.
-    pub const fn is_running(&self) -> bool {
-        matches!(self, Self::Running | Self::Held(_))
-    }
-}
-
-/// Output of a [`Relay`]'s step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RelayOutput<T> {
-    /// Command for the drive \[command unit\]: finite and within the limits.
-    pub command: T,
-    /// Phase of the experiment.
-    pub phase: RelayPhase<T>,
-}
-
 impl<T: Real> Relay<T> {
     /// The settings of this relay.
     pub const fn settings(&self) -> &RelaySettings<T> {
@@ -177,38 +119,42 @@ impl<T: Real> Relay<T> {
     /// Processes one sample. `dt` is the time since the last call \[s\], also after a bad sample;
     /// `measured` is the measured output \[output unit\].
     ///
+    /// The status is [`Status::Held`] after a bad sample, and [`Status::Safe`] after a failure. The
+    /// experiment has succeeded as soon as [`RelayState::result`] is there; the relay then applies
+    /// the centre.
+    ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
     /// holds the command, and its time counts. If its `dt` is not usable, the remaining time
     /// decreases by `longest_dt`, and the cycle with this sample is not averaged.
-    pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> RelayOutput<T> {
-        if state.is_active() {
-            state.phase = self.phase_after(state, dt, measured);
-        }
+    pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Output<T> {
         let s = &self.settings;
-        let command = match state.phase {
-            RelayPhase::Running | RelayPhase::Held(_) => state.held.command,
-            RelayPhase::Done(_) => s.centre,
-            RelayPhase::Failed(_) => s.fallback.command().unwrap_or(s.centre),
+        let status = match state.held.latched(&s.fallback) {
+            Some(safe) => safe,
+            None if state.result.is_some() => Status::Good,
+            None => self.advance(state, dt, measured),
         };
-        // The state may come from any source.
-        state.held.command = s.limits.clamp(command);
-        RelayOutput {
-            command: state.held.command,
-            phase: state.phase,
+        if state.result.is_some() && status == Status::Good {
+            state.held.command = s.centre;
         }
+        // The state may come from any source.
+        let command = s.limits.clamp(state.held.command);
+        state.held.command = command;
+        Output { command, status }
     }
 
     /// The step of an experiment that is still running.
-    fn phase_after(&self, state: &mut RelayState<T>, dt: T, measured: T) -> RelayPhase<T> {
+    fn advance(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Status {
         let s = &self.settings;
+        let safe = s.fallback.command().unwrap_or(s.centre);
         let of_dt = fault_of_dt(dt, s.longest_dt);
         let passed = if of_dt.is_none() { dt } else { s.longest_dt };
         state.remaining = state.remaining.saturating_sub(self.ticks(passed));
         if state.remaining == 0 {
-            return RelayPhase::Failed(match state.cycles {
-                0 => RelayFailure::NoOscillation,
-                _ => RelayFailure::TimeOut,
-            });
+            let reason = match state.cycles {
+                0 => Fault::NoOscillation,
+                _ => Fault::TimeOut,
+            };
+            return state.held.fail(reason, safe);
         }
         match (of_dt, &mut state.cycle) {
             (Some(_), cycle) => *cycle = None,
@@ -216,19 +162,17 @@ impl<T: Real> Relay<T> {
             (None, None) => {}
         }
         if let Some(fault) = of_dt.or_else(|| unless_finite(measured, Fault::Measured)) {
-            return match state.held.bad(fault, &s.fallback) {
-                Status::Safe(fault) => RelayPhase::Failed(RelayFailure::BadSamples(fault)),
-                _ => RelayPhase::Held(fault),
-            };
+            return state.held.bad(fault, &s.fallback);
         }
         if !state.held.may_step() {
             state.held.good();
         }
         let deviation = measured - s.reference;
         if deviation.abs() > s.most_deviation {
-            return RelayPhase::Failed(RelayFailure::OutputOutOfRange);
+            return state.held.fail(Fault::OutputOutOfRange, safe);
         }
-        self.switched(state, deviation)
+        self.switch(state, deviation);
+        Status::Good
     }
 
     /// The part of the budget that a time above zero takes: at least one tick, so the budget
@@ -240,7 +184,7 @@ impl<T: Real> Relay<T> {
     }
 
     /// Switches the relay at a good sample, and ends a cycle where it switches to `centre + d`.
-    fn switched(&self, state: &mut RelayState<T>, deviation: T) -> RelayPhase<T> {
+    fn switch(&self, state: &mut RelayState<T>, deviation: T) {
         let s = &self.settings;
         let upper = match state.upper {
             Some(true) => deviation <= s.hysteresis,
@@ -250,12 +194,11 @@ impl<T: Real> Relay<T> {
         if let Some(cycle) = &mut state.cycle {
             cycle.sees(deviation);
         }
-        let mut result = None;
         match (state.upper, upper, &mut state.cycle) {
             (Some(true), false, Some(cycle)) => cycle.upper_time = cycle.time.value,
             (Some(false), true, cycle) => {
                 let ended = cycle.replace(Cycle::starting_at(deviation));
-                result = ended.and_then(|cycle| self.averaged(state, &cycle));
+                state.result = ended.and_then(|cycle| self.averaged(state, &cycle));
             }
             _ => {}
         }
@@ -264,7 +207,6 @@ impl<T: Real> Relay<T> {
             true => s.centre + s.amplitude,
             false => s.centre - s.amplitude,
         };
-        result.map_or(RelayPhase::Running, RelayPhase::Done)
     }
 
     /// Adds a complete cycle to the average; returns the result after the last one.
@@ -301,17 +243,6 @@ impl<T: Real> Relay<T> {
             amplitude: a,
             duty: mean.duty,
         }
-    }
-}
-
-impl<T: Real> RelayState<T> {
-    /// Whether the experiment is still running. A latched fallback ends it, as in a stored
-    /// state.
-    fn is_active(&mut self) -> bool {
-        if let (true, Latch::Safe(fault)) = (self.phase.is_running(), self.held.latch) {
-            self.phase = RelayPhase::Failed(RelayFailure::BadSamples(fault));
-        }
-        self.phase.is_running()
     }
 }
 

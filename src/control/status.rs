@@ -2,37 +2,10 @@
 //! samples.
 
 use crate::error::{must_be_finite, rarely};
+use crate::fault::Fault;
 use crate::{Error, Real};
 
 crate::data! {
-    /// The bad input of a step.
-    #[derive(Eq, Hash)]
-    #[non_exhaustive]
-    pub enum Fault {
-        /// `dt` is not finite.
-        Dt,
-        /// `dt` is zero or negative: time has not advanced.
-        DtNotPositive,
-        /// `dt` exceeds the longest `dt` of the configuration, or the stability limit of the law.
-        DtTooLong,
-        /// The reference, or its next value.
-        Reference,
-        /// The measured output.
-        Measured,
-        /// The measured velocity.
-        Velocity,
-        /// The feed-forward command.
-        FeedForward,
-        /// The command to resume from.
-        Command,
-        /// A regressor, counted from 0.
-        Regressor(u8),
-        /// Every input is finite, but the command could not be computed: an overflow.
-        Overflow,
-        /// The phase of a cycle lies outside 0 to 1, or has jumped.
-        Phase,
-    }
-
     /// Result of a step.
     ///
     /// ```text
@@ -68,13 +41,6 @@ impl Status {
             Self::Good => None,
             Self::Degraded(fault) | Self::Held(fault) | Self::Safe(fault) => Some(fault),
         }
-    }
-
-    /// Whether the command comes from this sample: a good sample, or a good sample with a
-    /// dropped term.
-    #[must_use]
-    pub const fn is_live(self) -> bool {
-        matches!(self, Self::Good | Self::Degraded(_))
     }
 }
 
@@ -386,11 +352,7 @@ impl<T: Real> Held<T> {
         let most = fallback.most();
         self.score = self.score.saturating_add(fallback.weight).min(most);
         match fallback.command {
-            Some(safe) if self.score >= most => {
-                self.command = safe;
-                self.latch = Latch::Safe(fault);
-                Status::Safe(fault)
-            }
+            Some(safe) if self.score >= most => self.fail(fault, safe),
             _ => {
                 if self.latch == Latch::Closed {
                     self.latch = Latch::Counting;
@@ -400,6 +362,13 @@ impl<T: Real> Held<T> {
         }
     }
 
+    /// Applies the safe command and latches it, for this fault.
+    pub(crate) fn fail(&mut self, fault: Fault, safe: T) -> Status {
+        self.command = safe;
+        self.latch = Latch::Safe(fault);
+        Status::Safe(fault)
+    }
+
     /// Allows the next good sample to close the loop again; has no effect on a closed loop.
     pub(crate) fn acknowledge(&mut self) {
         if let Latch::Safe(_) = self.latch {
@@ -407,24 +376,6 @@ impl<T: Real> Held<T> {
             self.score = 0;
         }
     }
-}
-
-/// The fault of the sample time, if there is one.
-pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
-    if !dt.is_finite() {
-        Some(Fault::Dt)
-    } else if dt <= T::ZERO {
-        Some(Fault::DtNotPositive)
-    } else if dt > longest {
-        Some(Fault::DtTooLong)
-    } else {
-        None
-    }
-}
-
-/// The fault of a number that is not finite.
-pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
-    (!number.is_finite()).then_some(fault)
 }
 
 #[cfg(feature = "serde")]

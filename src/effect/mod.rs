@@ -216,19 +216,12 @@ effects! {
 /// # Ok::<(), bowden::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        transparent,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Effect<T>(Kind<T>);
+
+crate::checked::stored_as! {
+    Effect<T> as Kind<T>: |effect| effect.0, |kind| Ok::<_, Error>(Effect(kind))
+}
 
 /// The most shape parameters of an effect.
 const MOST_SHAPES: usize = 2;

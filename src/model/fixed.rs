@@ -234,17 +234,6 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         }
     }
 
-    /// The regressor of a sample that was accepted: some float.
-    #[inline]
-    fn value<const N: usize>(
-        &self,
-        memory: &mut EffectState<T>,
-        motion: &Motion<T>,
-        sum: &Sum<T, N>,
-    ) -> T {
-        self.effect.value(memory, &self.there(motion, sum))
-    }
-
     /// The share of the term, saturated.
     #[inline]
     fn part<const N: usize>(
@@ -322,7 +311,8 @@ macro_rules! tuple {
                 let mut output = sum.output;
                 $(
                     if $E::INFO.stage == Stage::Sum {
-                        values[$i] = self.$i.value($E, sum.motions[$i], sum);
+                        let there = self.$i.there(sum.motions[$i], sum);
+                        values[$i] = self.$i.effect.value($E, &there);
                         output += self.$i.gain * values[$i];
                     }
                 )*

@@ -7,27 +7,15 @@ use crate::Real;
 crate::checked::stored! {
     /// A running sum with the rounding error of its last addition.
     ///
-    /// Integrals and estimates move by a small increment at each sample. In a plain `f32` sum, an
-    /// increment below half an ulp has no effect: for example, a leakage of 0.001/s at 20 kHz moves
-    /// an estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
-    ///
-    /// ```
-    /// use bowden::signal::Compensated;
-    /// let mut plain = 1.0_f32;
-    /// let mut sum = Compensated::new(1.0_f32);
-    /// for _ in 0..1_000_000 {
-    ///     plain += 1e-8;
-    ///     sum = sum.plus(1e-8);
-    /// }
-    /// assert_eq!(plain, 1.0); // a million increments, all lost
-    /// assert!((sum.value - 1.01).abs() < 1e-6);
-    /// ```
+    /// Integrals and estimates move by a small increment each sample. In `f32` an increment below half
+    /// an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves an
+    /// estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
     #[derive(Default)]
-    pub struct Compensated<T> {
+    pub(crate) struct Compensated<T> {
         /// The sum.
-        pub value: T,
+        pub(crate) value: T,
         /// The carry (rounding error): it is added together with the next increment.
-        pub carry: T,
+        pub(crate) carry: T,
     }
     => {
         Ok(Self { value, carry })
@@ -36,7 +24,7 @@ crate::checked::stored! {
 
 impl<T: Real> Compensated<T> {
     /// A sum with a carry of zero.
-    pub const fn new(value: T) -> Self {
+    pub(crate) const fn new(value: T) -> Self {
         Self {
             value,
             carry: T::ZERO,
@@ -46,7 +34,7 @@ impl<T: Real> Compensated<T> {
     /// The sum after `increment`. If the sum is finite, the carry may still be NaN.
     #[inline]
     #[must_use]
-    pub fn plus(self, increment: T) -> Self {
+    pub(crate) fn plus(self, increment: T) -> Self {
         let (value, carry) = two_sum(self.value, increment + self.carry);
         Self { value, carry }
     }
@@ -79,8 +67,19 @@ pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
 
 #[cfg(test)]
 mod tests {
-    use super::two_sum;
+    use super::{two_sum, Compensated};
     use proptest::prelude::*;
+
+    #[test]
+    fn a_million_small_increments_are_kept() {
+        let (mut plain, mut sum) = (1.0_f32, Compensated::new(1.0_f32));
+        for _ in 0..1_000_000 {
+            plain += 1e-8;
+            sum = sum.plus(1e-8);
+        }
+        assert_eq!(plain, 1.0);
+        assert!((sum.value - 1.01).abs() < 1e-6);
+    }
 
     proptest! {
         /// f64 gives the same rounding error as `two_sum`: between these exponents it holds the

@@ -1,7 +1,8 @@
 //! Velocity of a slow encoder, from the time between its counts.
 
-use super::{clamp, RatesFault};
+use super::{clamp, RateStatus};
 use crate::error::above_zero;
+use crate::fault::{fault_of_dt, Fault};
 use crate::{Error, Real};
 
 crate::checked::stored! {
@@ -24,7 +25,7 @@ crate::checked::stored! {
     ///   half the time between counts if that time is longer than tau, and tau at high speed. Until
     ///   the next count the velocity is held, on average for a further `T/2`.
     /// * **Stop**: the bound falls as `count/t`. After `longest_gap` without a count the velocity
-    ///   is zero and the status is [`EdgeStatus::Stopped`]. Speeds below `count/longest_gap` read
+    ///   is zero and the status is [`RateStatus::Stopped`]. Speeds below `count/longest_gap` read
     ///   as stopped.
     /// * **Reversal**: a count in the opposite direction passes the same encoder line as the previous
     ///   count. The axis has therefore moved by one count less. Dither of one count gives zero
@@ -38,7 +39,7 @@ crate::checked::stored! {
     /// [`Rates`](super::Rates) for positions that change in every sample.
     ///
     /// ```
-    /// use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState};
+    /// use bowden::signal::{RateStatus, EdgeVelocity, EdgeVelocityState};
     /// // A 12-bit counter, averaged over 10 ms; stopped after 0.2 s: speeds above 5 counts/s.
     /// let velocity = EdgeVelocity::try_new(1.0, 0.01, 0.2)?.with_period(4096.0)?;
     /// let mut state = EdgeVelocityState::new();
@@ -51,7 +52,7 @@ crate::checked::stored! {
     ///     velocity.step(&mut state, 13.0, 0.001);
     /// }
     /// let out = velocity.step(&mut state, 13.0, 0.001);
-    /// assert_eq!((out.velocity, out.status), (0.0, EdgeStatus::Stopped));
+    /// assert_eq!((out.velocity, out.status), (0.0, RateStatus::Stopped));
     /// # Ok::<(), bowden::Error>(())
     /// ```
     pub struct EdgeVelocity<T> {
@@ -67,25 +68,12 @@ crate::checked::stored! {
 }
 
 crate::data! {
-    /// Validity of a velocity from [`EdgeVelocity`].
-    #[derive(Eq, Hash)]
-    pub enum EdgeStatus {
-        /// Two counts and the time between them are known.
-        Good,
-        /// Fewer than two counts are known: after the start, or after an unknown time.
-        Settling,
-        /// No count for longer than the longest gap: the velocity is zero.
-        Stopped,
-        /// A bad sample: the last velocity is held.
-        Held(RatesFault),
-    }
-
     /// Output of an [`EdgeVelocity`]'s step.
     pub struct EdgeVelocityOutput<T> {
         /// The velocity \[channel unit/s\]: finite, and zero until two counts are known.
         pub velocity: T,
         /// Validity of the velocity.
-        pub status: EdgeStatus,
+        pub status: RateStatus,
     }
 }
 
@@ -157,19 +145,15 @@ impl<T: Real> EdgeVelocity<T> {
     }
 
     #[inline]
-    fn advance(&self, state: &mut EdgeVelocityState<T>, position: T, dt: T) -> EdgeStatus {
-        if !dt.is_finite() || dt <= T::ZERO {
+    fn advance(&self, state: &mut EdgeVelocityState<T>, position: T, dt: T) -> RateStatus {
+        if let Some(fault) = fault_of_dt(dt, T::HIGHEST) {
             state.time_unknown |= dt != T::ZERO;
-            return EdgeStatus::Held(if dt.is_finite() {
-                RatesFault::DtNotPositive
-            } else {
-                RatesFault::Dt
-            });
+            return RateStatus::Held(fault);
         }
         // At least dt, also where a stored gap was negative.
         state.gap = clamp(state.gap + dt, dt, T::HIGHEST);
         if !position.is_finite() {
-            return EdgeStatus::Held(RatesFault::Position);
+            return RateStatus::Held(Fault::Position);
         }
         let moved = state.last.map(|last| self.moved(position - last));
         match moved {
@@ -184,17 +168,17 @@ impl<T: Real> EdgeVelocity<T> {
                     last: Some(position),
                     ..EdgeVelocityState::new()
                 };
-                EdgeStatus::Settling
+                RateStatus::Settling
             }
         }
     }
 
     /// No count: the bound falls, down to a stop.
     #[inline]
-    fn without_count(&self, state: &mut EdgeVelocityState<T>) -> EdgeStatus {
+    fn without_count(&self, state: &mut EdgeVelocityState<T>) -> RateStatus {
         if state.gap > self.longest_gap {
             state.velocity = state.velocity.map(|_| T::ZERO);
-            return EdgeStatus::Stopped;
+            return RateStatus::Stopped;
         }
         let bound = self.count / state.gap;
         state.velocity = state
@@ -205,7 +189,7 @@ impl<T: Real> EdgeVelocity<T> {
 
     /// One count or several, `moved` in all.
     #[inline]
-    fn at_count(&self, state: &mut EdgeVelocityState<T>, moved: T) -> EdgeStatus {
+    fn at_count(&self, state: &mut EdgeVelocityState<T>, moved: T) -> RateStatus {
         let goes_up = moved > T::ZERO;
         let (before, time) = (state.went_up, state.gap);
         let is_start = before.is_none() || state.time_unknown;
@@ -213,7 +197,7 @@ impl<T: Real> EdgeVelocity<T> {
         state.gap = T::ZERO;
         state.time_unknown = false;
         if is_start {
-            return EdgeStatus::Settling;
+            return RateStatus::Settling;
         }
         // Between the lines of the encoder: a reversal passes one of them twice.
         let way = if before == Some(goes_up) {
@@ -232,7 +216,7 @@ impl<T: Real> EdgeVelocity<T> {
             ),
             None => quotient,
         });
-        EdgeStatus::Good
+        RateStatus::Good
     }
 
     /// A difference of two positions, reduced by whole periods to the shortest.
@@ -282,11 +266,11 @@ impl<T: Real> EdgeVelocityState<T> {
     }
 
     #[inline]
-    fn known(&self) -> EdgeStatus {
+    fn known(&self) -> RateStatus {
         if self.velocity.is_some() && !self.time_unknown {
-            EdgeStatus::Good
+            RateStatus::Good
         } else {
-            EdgeStatus::Settling
+            RateStatus::Settling
         }
     }
 }

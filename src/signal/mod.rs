@@ -3,7 +3,6 @@
 //! | item | purpose |
 //! |---|---|
 //! | [`clamp`] | clamp to a range |
-//! | [`Compensated`] | compensated sum |
 //! | [`Plausible`] | reject finite but implausible numbers |
 //! | [`Play`] | play operator |
 //! | [`LowPass`], [`Biquad`] | first-order and second-order filters, notch |
@@ -30,13 +29,12 @@ mod rates;
 pub use biquad::{Biquad, BiquadState};
 pub use clamp::clamp;
 pub(crate) use clamp::{confined, greatest, least, wrapped};
-pub(crate) use compensated::two_sum;
-pub use compensated::Compensated;
+pub(crate) use compensated::{two_sum, Compensated};
 pub use derivative::{Derivative, DerivativeState};
-pub use edges::{EdgeStatus, EdgeVelocity, EdgeVelocityOutput, EdgeVelocityState};
+pub use edges::{EdgeVelocity, EdgeVelocityOutput, EdgeVelocityState};
 pub(crate) use gap::gap_after;
 pub use low_pass::{LowPass, LowPassState};
 pub use plausible::{Implausible, Plausible, PlausibleOutput, PlausibleState};
 pub use play::{Play, PlayState};
 pub use ramp::{Ramp, RampState};
-pub use rates::{Rates, RatesFault, RatesOutput, RatesState, RatesStatus};
+pub use rates::{RateStatus, Rates, RatesOutput, RatesState};

@@ -2,6 +2,7 @@
 
 use crate::effect::Motion;
 use crate::error::{above_zero, must_be_finite};
+use crate::fault::{fault_of_dt, unless_finite, Fault};
 use crate::real::of;
 use crate::{Error, Real};
 
@@ -35,7 +36,7 @@ crate::checked::stored! {
     ///
     /// * **First sample**: the rates start at zero, without a kick. On a moving axis the velocity
     ///   approaches the true velocity V as `V·(1 − e^(−t/tau))`. The acceleration has a pulse of
-    ///   `V/(e·tau)`. The status is [`RatesStatus::Settling`] for five time constants.
+    ///   `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time constants.
     /// * **Bad samples** (a position that is not finite, or a `dt` that is not positive and finite):
     ///   the last good motion is held. The status states the fault.
     /// * **Gaps**: the difference spans the time since the last good sample, including missing and bad
@@ -50,7 +51,7 @@ crate::checked::stored! {
     ///   turns, and only the returned position is rounded.
     ///
     /// ```
-    /// use bowden::signal::{Rates, RatesState, RatesStatus};
+    /// use bowden::signal::{Rates, RatesState, RateStatus};
     /// # fn main() -> Result<(), bowden::Error> {
     /// // An encoder of 4096 counts per turn on a 12-bit counter; the fit's cut-off was 5 Hz.
     /// let rates = Rates::for_cutoff(5.0_f32)?.with_period(4096.0)?;
@@ -60,7 +61,7 @@ crate::checked::stored! {
     ///     rates.step(&mut state, counter as f32, 0.001);
     /// }
     /// let out = rates.step(&mut state, ((4000 + 3 * 2000) % 4096) as f32, 0.001);
-    /// assert_eq!((out.status, out.motion.position), (RatesStatus::Good, 10_000.0));
+    /// assert_eq!((out.status, out.motion.position), (RateStatus::Good, 10_000.0));
     /// assert!((out.motion.velocity - 3000.0).abs() < 0.01); // [counts/s]
     /// # Ok(())
     /// # }
@@ -77,31 +78,22 @@ crate::checked::stored! {
 }
 
 crate::data! {
-    /// Why [`Rates`] could not use a sample.
+    /// Validity of the rates from [`Rates`] or [`EdgeVelocity`](super::EdgeVelocity).
     #[derive(Eq, Hash)]
-    #[non_exhaustive]
-    pub enum RatesFault {
-        /// The position is not finite.
-        Position,
-        /// `dt` is not finite.
-        Dt,
-        /// `dt` is zero or negative: time has not advanced.
-        DtNotPositive,
-        /// All inputs are finite, but a rate or the unwrapped position overflows.
-        Overflow,
-    }
-
-    /// Validity of the motion in a [`RatesOutput`].
-    #[derive(Eq, Hash)]
-    pub enum RatesStatus {
-        /// A good sample, and the rates have settled.
+    pub enum RateStatus {
+        /// A good sample, and the rates have settled: two counts and the time between them are
+        /// known.
         Good,
-        /// A good sample, but the rates started from zero less than five time constants ago.
+        /// A good sample, but the rates started from zero less than five time constants ago, or
+        /// fewer than two counts are known.
         Settling,
-        /// A good position after an unknown time: the rates are held.
+        /// A good position after an unknown time: [`Rates`] holds the rates.
         Resumed,
-        /// A bad sample: the last good motion is held.
-        Held(RatesFault),
+        /// No count for longer than the longest gap: the velocity of an
+        /// [`EdgeVelocity`](super::EdgeVelocity) is zero.
+        Stopped,
+        /// A bad sample: the last good rates are held.
+        Held(Fault),
     }
 
     /// Output of a [`Rates`]' step.
@@ -110,7 +102,7 @@ crate::data! {
         /// sample.
         pub motion: Motion<T>,
         /// Whether the motion is new, and its rates have settled.
-        pub status: RatesStatus,
+        pub status: RateStatus,
     }
 }
 
@@ -245,7 +237,7 @@ impl<T: Real> Rates<T> {
             }
             Err(fault) => {
                 state.wait(dt);
-                RatesStatus::Held(fault)
+                RateStatus::Held(fault)
             }
         };
         RatesOutput {
@@ -261,19 +253,14 @@ impl<T: Real> Rates<T> {
         state: &RatesState<T>,
         position: T,
         dt: T,
-    ) -> Result<(RatesState<T>, RatesStatus), RatesFault> {
-        if !dt.is_finite() {
-            return Err(RatesFault::Dt);
-        }
-        if dt <= T::zero() {
-            return Err(RatesFault::DtNotPositive);
-        }
-        if !position.is_finite() {
-            return Err(RatesFault::Position);
+    ) -> Result<(RatesState<T>, RateStatus), Fault> {
+        let fault = fault_of_dt(dt, T::HIGHEST);
+        if let Some(fault) = fault.or_else(|| unless_finite(position, Fault::Position)) {
+            return Err(fault);
         }
         let Some(last) = state.last else {
             let start = RatesState::start(position, 0, position);
-            return Ok((start, RatesStatus::Settling));
+            return Ok((start, RateStatus::Settling));
         };
         let elapsed = state.gap + dt;
         // An overflow is a gap too: the sum of two times that are finite.
@@ -282,7 +269,7 @@ impl<T: Real> Rates<T> {
             Some(moved) => moved,
             // The distance to the last position overflows, but the position itself is good.
             None if !bridged => (T::zero(), 0),
-            None => return Err(RatesFault::Overflow),
+            None => return Err(Fault::Overflow),
         };
         let unwrapped = match self.period {
             Some(period) => reach(position + count::<T>(turns) * period)?,
@@ -290,7 +277,7 @@ impl<T: Real> Rates<T> {
         };
         if !bridged {
             let start = RatesState::start(position, turns, unwrapped);
-            return Ok((start, RatesStatus::Settling));
+            return Ok((start, RateStatus::Settling));
         }
         let mut next = RatesState {
             last: Some(position),
@@ -301,7 +288,7 @@ impl<T: Real> Rates<T> {
         };
         next.motion.position = unwrapped;
         if state.time_unknown {
-            return Ok((next, RatesStatus::Resumed));
+            return Ok((next, RateStatus::Resumed));
         }
         let share = -(-elapsed / self.time_constant).exp_m1();
         // Two products instead of share·(quotient - rate), which could overflow.
@@ -313,10 +300,10 @@ impl<T: Real> Rates<T> {
         next.motion.acceleration =
             lag(before.acceleration, next.motion.velocity - before.velocity)?;
         if state.age > T::from_f64(SETTLING) * self.time_constant {
-            return Ok((next, RatesStatus::Good));
+            return Ok((next, RateStatus::Good));
         }
         next.age = state.age + elapsed;
-        Ok((next, RatesStatus::Settling))
+        Ok((next, RateStatus::Settling))
     }
 
     /// The distance from the last position to this one, and the turns at this one.
@@ -385,11 +372,11 @@ impl<T: Real> RatesState<T> {
 
 /// A finite number, or an overflow.
 #[inline]
-fn reach<T: Real>(value: T) -> Result<T, RatesFault> {
+fn reach<T: Real>(value: T) -> Result<T, Fault> {
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(RatesFault::Overflow)
+        Err(Fault::Overflow)
     }
 }
 

@@ -33,7 +33,7 @@ fn pass(
             let out = learning.step(state, &at);
             assert_eq!(out.status, Status::Good);
             if part == 0.5 {
-                assert!((out.feed_forward - state.learned()[cell % cells]).abs() < 1e-9);
+                assert!((out.command - state.learned()[cell % cells]).abs() < 1e-9);
             }
         }
     }
@@ -240,7 +240,7 @@ fn bad_samples_teach_nothing_and_the_phase_goes_on() {
                 ] {
                     let out =
                         learning.step(&mut state, &IterativeLearningInput { phase: bad, ..good });
-                    assert_eq!((out.status, out.feed_forward), (expected, held));
+                    assert_eq!((out.status, out.command), (expected, held));
                 }
                 assert_eq!(state.learned(), before);
                 let measured = f64::NAN;
@@ -269,7 +269,7 @@ fn the_end_of_a_cycle_is_the_start_of_the_next() {
     let mut state = learning.resume(own, unfiltered).unwrap();
     let mut at = |phase: f64| {
         let input = IterativeLearningInput::new(phase, 0.0, 0.0);
-        learning.step(&mut state, &input).feed_forward
+        learning.step(&mut state, &input).command
     };
     // Halfway between the middles of the last cell and the first.
     assert_eq!((at(0.0), at(1.0), at(0.025)), (9.5, 9.5, 0.0));
@@ -335,7 +335,7 @@ fn after_a_step_that_ended_early_no_cell_learns_that_was_not_passed() {
                 let output = late.pop_front().unwrap();
                 let at =
                     IterativeLearningInput::new((cell as f64 + 0.5) / cells as f64, 1.0, output);
-                late.push_back(learning.step(state, &at).feed_forward);
+                late.push_back(learning.step(state, &at).command);
                 worst = worst.max((output - 1.0).abs());
             }
             worst
@@ -465,7 +465,7 @@ fn what_was_stored_is_confined_and_goes_on() {
         &mut state,
         &IterativeLearningInput::new(0.5 / 12.0, 0.0, 0.0),
     );
-    assert_eq!(out.feed_forward, 1.0);
+    assert_eq!(out.command, 1.0);
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn run(
         };
         let out = observer.step(&mut state, &at);
         assert_eq!(out.status, Status::Good);
-        seen(t, out.estimate);
+        seen(t, out.command);
         sent = tones(t);
         // Of the commands before the first sample none was given.
         let acts = k.checked_sub(late).map_or(0.0, |k| tones(k as f64 * DT));
@@ -179,13 +179,13 @@ fn a_bad_sample_holds_and_its_time_is_made_up_for() {
     ] {
         let mut held = whole;
         let out = observer.step(&mut held, &bad);
-        assert_eq!((out.status, out.estimate), (Status::Held(fault), first));
+        assert_eq!((out.status, out.command), (Status::Held(fault), first));
     }
     // Two bad samples of 1 ms and a good one are one good one of 3 ms.
     observer.step(&mut gappy, &at(0.001, 20.0, f64::NAN));
     observer.step(&mut gappy, &at(0.001, f64::NAN, 4.0));
-    let after = observer.step(&mut gappy, &at(0.001, 20.0, 4.0)).estimate;
-    let once = observer.step(&mut whole, &at(0.003, 20.0, 4.0)).estimate;
+    let after = observer.step(&mut gappy, &at(0.001, 20.0, 4.0)).command;
+    let once = observer.step(&mut whole, &at(0.003, 20.0, 4.0)).command;
     assert!((after - once).abs() < 1e-12);
 }
 
@@ -203,7 +203,7 @@ fn a_single_bad_time_stamp_makes_no_jump() {
                 sent,
                 measured: simulated.y,
             };
-            let estimate = observer.step(&mut state, &at).estimate;
+            let estimate = observer.step(&mut state, &at).command;
             if k > 1990 {
                 most = most.max((estimate - last).abs());
             }
@@ -233,10 +233,10 @@ fn what_overflows_is_no_estimate_and_the_next_sample_begins_anew() {
     let before = state.estimate();
     let out = observer.step(&mut state, &at(10.0, -1.7e308));
     assert_eq!(out.status, Status::Held(Fault::Overflow));
-    assert_eq!(out.estimate, before);
+    assert_eq!(out.command, before);
     let out = observer.step(&mut state, &at(12.0, 3.0));
     assert_eq!(out.status, Status::Good);
-    assert!((out.estimate - 7.0).abs() < 1e-12);
+    assert!((out.command - 7.0).abs() < 1e-12);
 }
 
 #[test]

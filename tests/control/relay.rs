@@ -11,8 +11,7 @@ mod measured;
 mod plants;
 mod settings;
 
-use bowden::control::{Fallback, Limits, Relay, RelayOutput, RelayPhase, RelaySettings};
-use bowden::control::{RelayState, Ultimate};
+use bowden::control::{Fallback, Limits, Output, Relay, RelaySettings, RelayState, Ultimate};
 use bowden::Real;
 use plants::{Plant, Sampled};
 
@@ -39,14 +38,14 @@ fn ended<T: Real>(
     settings: RelaySettings<T>,
     plant: &Plant,
     sampled: &mut Sampled,
-) -> (RelayOutput<T>, RelayState<T>) {
+) -> (Output<T>, RelayState<T>) {
     let relay = Relay::try_new(settings).unwrap();
     let (mut state, mut plant) = (RelayState::new(), plant.clone());
     loop {
         let (dt, noise) = sampled.next();
         let measured = T::from_f64(plant.output() + noise);
         let out = relay.step(&mut state, T::from_f64(dt), measured);
-        if !out.phase.is_running() {
+        if !state.is_running() {
             return (out, state);
         }
         sampled.dt = sampled.drawn();
@@ -61,8 +60,8 @@ fn result<T: Real>(
     sampled: &mut Sampled,
 ) -> Ultimate<f64> {
     let (out, state) = ended(settings, plant, sampled);
-    let RelayPhase::Done(it) = out.phase else {
-        panic!("{:?} after {} cycles", out.phase, state.cycles());
+    let Some(it) = state.result() else {
+        panic!("{:?} after {} cycles", out.status, state.cycles());
     };
     assert_eq!(out.command, settings.centre);
     Ultimate {

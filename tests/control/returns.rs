@@ -136,9 +136,9 @@ impl Seen {
             for _ in 0..self.samples() {
                 let out = observer.step(&mut state, &at);
                 prop_assert_eq!(out.status, Status::Good);
-                estimate = out.estimate;
+                estimate = out.command;
                 // The limit cuts the output alone: nothing winds up behind it.
-                let whole = free.step(&mut unlimited, &at).estimate;
+                let whole = free.step(&mut unlimited, &at).command;
                 let limit = observer.limit();
                 prop_assert_eq!(estimate, bowden::signal::clamp(whole, -limit, limit));
             }

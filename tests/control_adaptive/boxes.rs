@@ -155,7 +155,10 @@ fn stays_in_its_boxes<T: Real>(
         let usable = finite.iter().all(|value| value.is_finite())
             && dt.is_finite()
             && dt > T::zero()
-            && law.largest_step().is_none_or(|largest| dt <= largest);
+            && law
+                .settings()
+                .largest_step()
+                .is_none_or(|largest| dt <= largest);
         match output.status {
             Status::Good => prop_assert!(usable),
             Status::Held(fault) => {

@@ -51,9 +51,9 @@ fn a_step_is_equations_17_to_26() {
 
 #[test]
 fn the_papers_settings_are_admissible_as_they_are() {
-    let checked = Adaptive::try_new(AdaptiveSettings::<f32, 2>::paper());
+    let checked = Adaptive::try_new(*Adaptive::<f32, 2>::paper().settings());
     assert_eq!(checked, Ok(Adaptive::paper()));
-    assert_eq!(Adaptive::<f32, 2>::paper().largest_step(), None);
+    assert_eq!(Adaptive::<f32, 2>::paper().settings().largest_step(), None);
 }
 
 #[test]

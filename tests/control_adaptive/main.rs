@@ -4,7 +4,6 @@
 #![allow(clippy::unwrap_used)]
 
 mod boxes;
-mod equations;
 mod forms;
 mod hand_over;
 mod law;

@@ -53,7 +53,7 @@ fn a_wrapped_counter_is_no_sample_of_either_form() {
 fn the_lag_form_accepts_no_longer_step_than_it_admits_and_than_was_stated() {
     let admits = |settings: AdaptiveSettings<f64, 1>| {
         let law = Adaptive::try_new(settings).unwrap();
-        (law.longest_dt(), law.largest_step().unwrap())
+        (law.longest_dt(), law.settings().largest_step().unwrap())
     };
     let (longest, largest) = admits(law(true, 100.0));
     assert_eq!(longest, largest.min(LONGEST));
@@ -88,7 +88,6 @@ fn a_nan_encoder_that_may_be_dropped_leaves_the_torque_loop_closed() {
         let wanted = law.terms(&state, &at_zero).unlimited;
         let out = law.step(&mut state, &blind);
         assert_eq!(out.status, Status::Degraded(Fault::Regressor(0)));
-        assert!(out.status.is_live());
         assert_eq!(out.command, wanted, "the law without that term");
         assert_ne!(state.accumulated_error(), before.accumulated_error());
         assert_eq!(state.theta_hat(), before.theta_hat());

@@ -83,7 +83,7 @@ proptest! {
         ),
     ) {
         // What `bowden_bound::Theorem1` gives for Table 2, alpha = 1 and Delta = 7.056 N·m.
-        let delta = theorem_1(&AdaptiveSettings::paper(), 7.056);
+        let delta = theorem_1(Adaptive::paper().settings(), 7.056);
         let law = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.05, smooth_sign: sign };
         let mut at = ErrorState { s: start.0 * delta, z: start.1 * delta };
         for (g, delta_hat, w, xi) in steps {

@@ -2,7 +2,7 @@
 
 // Clippy's allowance covers the test functions, not what they share.
 
-use bowden::signal::{Play, PlayState, Ramp, RampState, Rates, RatesState, RatesStatus};
+use bowden::signal::{Play, PlayState, Ramp, RampState, RateStatus, Rates, RatesState};
 use bowden::Real;
 use proptest::prelude::*;
 
@@ -154,7 +154,7 @@ proptest! {
         // Five time constants, a sample at each end, and one that only says where the axis is.
         let settled = (5.0 * samples).floor() + 3.0;
         let mut taken = 0.0;
-        while step(&mut state).status != RatesStatus::Good {
+        while step(&mut state).status != RateStatus::Good {
             taken += 1.0;
             prop_assert!(taken <= settled, "{taken} {settled}");
         }
@@ -163,7 +163,7 @@ proptest! {
         let mut out = step(&mut state);
         for _ in 0..(60.0 * samples) as u32 + 2 {
             out = step(&mut state);
-            prop_assert_eq!(out.status, RatesStatus::Good);
+            prop_assert_eq!(out.status, RateStatus::Good);
         }
         let rounding = f64::EPSILON * 70.0 * tau * slope.abs() / dt + 1e-9;
         prop_assert!((out.motion.velocity - slope).abs() <= rounding);

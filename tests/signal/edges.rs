@@ -1,7 +1,8 @@
 //! Velocity from the time between counts: constant speeds, stops, reversals, a slow sine.
 
 use super::any_float;
-use bowden::signal::{EdgeStatus, EdgeVelocity, EdgeVelocityState, RatesFault};
+use bowden::control::Fault;
+use bowden::signal::{EdgeVelocity, EdgeVelocityState, RateStatus};
 use bowden::Error;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -36,7 +37,7 @@ fn a_constant_speed_has_the_error_that_the_docs_state_from_half_a_count_a_second
                 let t = f64::from(k) * DT;
                 let out = edges().step(&mut state, counter(signed * t + 0.37), DT as f32);
                 if t > start {
-                    assert_eq!(out.status, EdgeStatus::Good, "{signed} {t}");
+                    assert_eq!(out.status, RateStatus::Good, "{signed} {t}");
                     worst = worst.max((f64::from(out.velocity) - signed).abs());
                     seen += 1;
                 }
@@ -96,9 +97,9 @@ fn a_stop_follows_the_bound_down_and_is_zero_after_the_longest_gap() {
             assert!(f64::from(out.velocity) * since <= 1.0 + 1e-5);
             // One sample for the sum of 500 times in f32.
             if since > 0.5 + DT {
-                assert_eq!((out.velocity, out.status), (0.0, EdgeStatus::Stopped));
+                assert_eq!((out.velocity, out.status), (0.0, RateStatus::Stopped));
             } else if since < 0.5 - DT {
-                assert_eq!(out.status, EdgeStatus::Good);
+                assert_eq!(out.status, RateStatus::Good);
                 assert!(out.velocity > 0.0);
             }
         }
@@ -206,7 +207,7 @@ fn a_slow_sine_of_the_speed_is_late_by_what_the_docs_state() {
 
 #[test]
 fn bad_samples_hold_the_velocity_and_their_time_counts() {
-    let run = |bad: &[(f32, f32, RatesFault)]| {
+    let run = |bad: &[(f32, f32, Fault)]| {
         let mut state = EdgeVelocityState::new();
         for k in 0..=10 {
             edges().step(&mut state, k as f32, 0.05);
@@ -216,34 +217,31 @@ fn bad_samples_hold_the_velocity_and_their_time_counts() {
             let out = edges().step(&mut state, position, dt);
             assert_eq!(
                 (out.velocity, out.status),
-                (before, EdgeStatus::Held(fault))
+                (before, RateStatus::Held(fault))
             );
         }
         state
     };
     let nan = f32::NAN;
     // 20 counts/s; 40 of the 50 ms are bad.
-    let mut state = run(&[
-        (nan, 0.02, RatesFault::Position),
-        (nan, 0.02, RatesFault::Position),
-    ]);
+    let mut state = run(&[(nan, 0.02, Fault::Position), (nan, 0.02, Fault::Position)]);
     let out = edges().step(&mut state, 11.0, 0.01);
-    assert_eq!(out.status, EdgeStatus::Good);
+    assert_eq!(out.status, RateStatus::Good);
     assert!((out.velocity - 20.0).abs() < 1e-4);
     // A time that nobody knows: the next count starts again, the one after it is good.
-    for (dt, fault) in [(nan, RatesFault::Dt), (-1.0, RatesFault::DtNotPositive)] {
+    for (dt, fault) in [(nan, Fault::Dt), (-1.0, Fault::DtNotPositive)] {
         let mut state = run(&[(11.0, dt, fault)]);
         let before = state.velocity();
         let out = edges().step(&mut state, 13.0, 0.01);
-        assert_eq!((out.velocity, out.status), (before, EdgeStatus::Settling));
+        assert_eq!((out.velocity, out.status), (before, RateStatus::Settling));
         let out = edges().step(&mut state, 14.0, 0.05);
-        assert_eq!(out.status, EdgeStatus::Good);
+        assert_eq!(out.status, RateStatus::Good);
         assert!((out.velocity - 20.0).abs() < 1e-4);
     }
-    let mut state = run(&[(11.0, 0.0, RatesFault::DtNotPositive)]);
+    let mut state = run(&[(11.0, 0.0, Fault::DtNotPositive)]);
     assert_eq!(
         edges().step(&mut state, 11.0, 0.05).status,
-        EdgeStatus::Good
+        RateStatus::Good
     );
 }
 

@@ -2,8 +2,9 @@
 
 use super::any_float;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+use bowden::control::Fault;
 use bowden::effect::Motion;
-use bowden::signal::{Rates, RatesFault, RatesState, RatesStatus};
+use bowden::signal::{RateStatus, Rates, RatesState};
 use bowden::{Error, Real};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -21,7 +22,7 @@ fn run<T: Real>(rates: &Rates<T>, times: &[f64], x: impl Fn(f64) -> f64) -> Vec<
     let mut before = times[0] - (times[1] - times[0]);
     let step = |&t: &f64| {
         let out = rates.step(&mut state, T::from_f64(x(t)), T::from_f64(t - before));
-        assert!(!matches!(out.status, RatesStatus::Held(_)));
+        assert!(!matches!(out.status, RateStatus::Held(_)));
         before = t;
         Motion {
             position: out.motion.position.as_f64(),
@@ -167,16 +168,16 @@ fn the_first_sample_gives_no_kick_and_the_rates_settle_in_five_time_constants() 
         position: 1e6,
         ..Motion::default()
     };
-    assert_eq!((out.motion, out.status), (rest, RatesStatus::Settling));
+    assert_eq!((out.motion, out.status), (rest, RateStatus::Settling));
     let mut steepest: f64 = 0.0;
     for k in 1..100_u32 {
         let out = rates.step(&mut state, 1e6 + 2.0 * DT * f64::from(k), DT);
         steepest = steepest.max(out.motion.acceleration);
         // 51 steps of 1 ms are more than 50 ms, with or without rounding.
         if !(50..=52).contains(&k) {
-            assert_eq!(out.status == RatesStatus::Good, k > 52);
+            assert_eq!(out.status == RateStatus::Good, k > 52);
         }
-        if out.status == RatesStatus::Good {
+        if out.status == RateStatus::Good {
             assert!((out.motion.velocity - 2.0).abs() <= 2.0 * (-5.0_f64).exp());
         }
     }
@@ -198,7 +199,7 @@ fn on_a_ramp(rates: &Rates<f64>) -> RatesState<f64> {
 fn bad_samples_hold_the_last_good_motion_and_say_why() {
     let rates = rates::<f64>();
     let settled = on_a_ramp(&rates);
-    use RatesFault::{Dt, DtNotPositive, Position};
+    use Fault::{Dt, DtNotPositive, Position};
     for (position, dt, fault) in [
         (f64::NAN, DT, Position),
         (f64::INFINITY, DT, Position),
@@ -212,13 +213,13 @@ fn bad_samples_hold_the_last_good_motion_and_say_why() {
     ] {
         let mut state = settled;
         let out = rates.step(&mut state, position, dt);
-        assert_eq!(out.status, RatesStatus::Held(fault));
+        assert_eq!(out.status, RateStatus::Held(fault));
         assert_eq!(out.motion, settled.motion());
         let mut fresh = RatesState::new();
         let out = rates.step(&mut fresh, position, dt);
         assert_eq!(
             (out.motion, out.status),
-            (Motion::default(), RatesStatus::Held(fault))
+            (Motion::default(), RateStatus::Held(fault))
         );
     }
 }
@@ -237,7 +238,7 @@ fn the_difference_spans_samples_that_were_bad_or_missing() {
         let mut late = on_a_ramp(&rates);
         let after_gap = rates.step(&mut late, next, DT * f64::from(missing + 1));
         for out in [after_bad, after_gap] {
-            assert_eq!(out.status, RatesStatus::Good);
+            assert_eq!(out.status, RateStatus::Good);
             // Rounding of positions below 1 over 2 ms, and e^-20 of the start over tau.
             assert_abs_diff_eq!(out.motion.velocity, 3.0, epsilon = 1e-8);
             assert_abs_diff_eq!(out.motion.acceleration, 0.0, epsilon = 1e-4);
@@ -258,10 +259,10 @@ fn a_gap_that_is_too_long_starts_again_at_rest() {
             position: jump,
             ..Motion::default()
         };
-        assert_eq!((out.motion, out.status), (rest, RatesStatus::Settling));
+        assert_eq!((out.motion, out.status), (rest, RateStatus::Settling));
         assert_eq!(
             rates.step(&mut state, jump, DT).status,
-            RatesStatus::Settling
+            RateStatus::Settling
         );
     }
     let mut state = on_a_ramp(&rates);
@@ -272,7 +273,7 @@ fn a_gap_that_is_too_long_starts_again_at_rest() {
     let patient = rates.with_longest_gap(1.0).unwrap();
     let mut state = on_a_ramp(&patient);
     let out = patient.step(&mut state, 0.6 + 3.0 * 0.9, 0.9);
-    assert_eq!(out.status, RatesStatus::Good);
+    assert_eq!(out.status, RateStatus::Good);
     assert_abs_diff_eq!(out.motion.velocity, 3.0, epsilon = 1e-8);
 }
 
@@ -284,18 +285,18 @@ fn after_an_unknown_time_the_rates_are_held_until_a_difference_is_known_again() 
         rates.step(&mut state, 0.603, bad_dt);
         let before = state.motion();
         let out = rates.step(&mut state, 0.606, DT);
-        assert_eq!(out.status, RatesStatus::Resumed);
+        assert_eq!(out.status, RateStatus::Resumed);
         assert_eq!(out.motion.position, 0.606);
         assert_eq!(out.motion.velocity, before.velocity); // 6 mm in one ms it was not
         let out = rates.step(&mut state, 0.609, DT);
-        assert_eq!(out.status, RatesStatus::Good);
+        assert_eq!(out.status, RateStatus::Good);
         assert_abs_diff_eq!(out.motion.velocity, 3.0, epsilon = 1e-8);
     }
     // A second sample in one tick of the clock: no time has passed.
     let mut state = on_a_ramp(&rates);
     rates.step(&mut state, 0.6, 0.0);
     let out = rates.step(&mut state, 0.603, DT);
-    assert_eq!(out.status, RatesStatus::Good);
+    assert_eq!(out.status, RateStatus::Good);
     assert_abs_diff_eq!(out.motion.velocity, 3.0, epsilon = 1e-8);
 }
 
@@ -371,18 +372,18 @@ fn a_jump_out_of_the_reach_of_floats_is_held_and_heals_with_the_longest_gap() {
     rates.step(&mut state, f32::MIN, 0.001);
     for _ in 0..99 {
         let out = rates.step(&mut state, f32::MAX, 0.001);
-        assert_eq!(out.status, RatesStatus::Held(RatesFault::Overflow));
+        assert_eq!(out.status, RateStatus::Held(Fault::Overflow));
         assert_eq!(out.motion.position, f32::MIN);
     }
     let mut last = rates.step(&mut state, f32::MAX, 0.001);
-    last = if last.status == RatesStatus::Settling {
+    last = if last.status == RateStatus::Settling {
         last
     } else {
         rates.step(&mut state, f32::MAX, 0.001)
     };
     assert_eq!(
         (last.motion.position, last.status),
-        (f32::MAX, RatesStatus::Settling)
+        (f32::MAX, RateStatus::Settling)
     );
 }
 
@@ -424,7 +425,7 @@ proptest! {
             prop_assert!(motion.position.is_finite() && motion.velocity.is_finite());
             prop_assert!(motion.acceleration.is_finite() && state.gap().is_finite());
             prop_assert!(state.gap() >= 0.0 && state.motion() == motion);
-            if matches!(out.status, RatesStatus::Held(_)) {
+            if matches!(out.status, RateStatus::Held(_)) {
                 prop_assert_eq!(motion, before);
             } else {
                 prop_assert!(position.is_finite() && dt > 0.0 && dt.is_finite());

@@ -46,9 +46,9 @@ fn theorem_1_is_vacuous_as_the_paper_has_it() {
 
 #[test]
 fn a_regressor_that_is_not_there_changes_nothing_in_theorem_1() {
-    let [first, second] = AdaptiveSettings::<f64, 2>::paper().theta;
+    let [first, second] = Adaptive::<f64, 2>::paper().settings().theta;
     let third = Estimator::fixed(0.0);
-    let paper = AdaptiveSettings::<f64, 2>::paper();
+    let paper = *Adaptive::<f64, 2>::paper().settings();
     let law = Adaptive::try_new(AdaptiveSettings {
         beta: paper.beta,
         delta: paper.delta,
@@ -68,7 +68,7 @@ fn a_regressor_that_is_not_there_changes_nothing_in_theorem_1() {
 fn less_leakage_makes_theorem_1_worse_and_the_rms_certificate_better() {
     let mut last = (0.0, f64::INFINITY);
     for sigma in [0.1, 0.01, 0.001, 0.0001] {
-        let paper = AdaptiveSettings::<f64, 2>::paper();
+        let paper = *Adaptive::<f64, 2>::paper().settings();
         let leak = |estimator: Estimator<f64>| Estimator {
             leakage: Leakage::Constant { rate: sigma },
             ..estimator
@@ -127,7 +127,7 @@ fn the_rms_certificate_says_something() {
 
 #[test]
 fn a_prior_at_the_truth_leaves_the_smoothing_alone() {
-    let paper = AdaptiveSettings::<f64, 2>::paper();
+    let paper = *Adaptive::<f64, 2>::paper().settings();
     let plant = rig();
     let alpha = plant.alpha.low;
     let prior = |estimator, prior| Estimator { prior, ..estimator };

@@ -286,7 +286,7 @@ fn cycles(
             let phase = k as f64 / per_cycle as f64;
             let at = IterativeLearningInput::new(phase, 0.0, measured);
             let at = PidInput {
-                feed_forward: learning.step(&mut known, &at).feed_forward,
+                feed_forward: learning.step(&mut known, &at).command,
                 ..PidInput::new(DT, 0.0, measured)
             };
             simulated.step(law.step(&mut state, &at).command);

@@ -39,7 +39,7 @@ fn peaks(
                 sent: last,
                 measured,
             };
-            let feed_forward = observer.step(&mut seen, &at).estimate;
+            let feed_forward = observer.step(&mut seen, &at).command;
             let at = PidInput {
                 feed_forward,
                 ..PidInput::new(DT, 0.0, measured)

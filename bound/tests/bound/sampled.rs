@@ -61,7 +61,7 @@ fn attack(law: &Adaptive<f64, 1>, peak: &PeakSampled<f64>, seed: u64) -> (f64, f
         epsilon: settings.epsilon,
         smooth_sign: settings.smooth_sign,
     };
-    let (h, mut random) = (law.largest_step().unwrap(), Random(seed));
+    let (h, mut random) = (law.settings().largest_step().unwrap(), Random(seed));
     let mut at = ErrorState { s: 0.0, z: 0.0 };
     let (mut s, mut z) = (0.0_f64, 0.0_f64);
     for _ in 0..100 {
@@ -116,7 +116,7 @@ fn from_outside_the_errors_come_into_the_box() {
         epsilon: 0.2,
         smooth_sign: SmoothSign::Tanh,
     };
-    let h = law.largest_step().unwrap();
+    let h = law.settings().largest_step().unwrap();
     let by = Disturbance {
         g: peak.g.low,
         delta_hat: 0.0,
@@ -147,7 +147,7 @@ fn beyond_the_admissible_step_the_box_is_left() {
         smooth_sign: SmoothSign::Clamp,
     };
     // Twenty times: h·lambda·g·k alone is eight, where two is the limit of any loop.
-    let h = 20.0 * law.largest_step().unwrap();
+    let h = 20.0 * law.settings().largest_step().unwrap();
     let by = Disturbance {
         g: peak.g.high,
         delta_hat: 7.0,
@@ -175,7 +175,10 @@ fn the_shipped_step_never_leaves_the_box_on_a_static_plant() {
             sign,
         );
         let peak = PeakSampled::try_new(&law, &known).unwrap();
-        let (h, lambda) = (law.largest_step().unwrap(), law.settings().lambda);
+        let (h, lambda) = (
+            law.settings().largest_step().unwrap(),
+            law.settings().lambda,
+        );
         let theta = random.within(0.2, 0.6);
         let (mut x, mut d) = (0.0, random.within(-7.0, 7.0));
         // The reference starts where the plant is at rest: e = 0.
@@ -226,7 +229,7 @@ fn the_mean_square_of_the_error_stays_within_the_sampled_certificate() {
             ..plant()
         };
         let certificate = RmsSampled::try_new(&law, &known).unwrap();
-        let h = law.largest_step().unwrap();
+        let h = law.settings().largest_step().unwrap();
         let (theta, mut d, mut sum) = (0.4, 7.0, 0.0);
         let (r, x) = (-38.0, 0.0);
         let input = |y| AdaptiveInput::new(h, r, y, [x]);

@@ -2,7 +2,7 @@
 
 use crate::{Case, Output, Sample};
 use bowden::constant;
-use bowden::signal::{Biquad, BiquadState, EdgeStatus, EdgeVelocity, EdgeVelocityState};
+use bowden::signal::{Biquad, BiquadState, EdgeVelocity, EdgeVelocityState, RateStatus};
 use bowden::signal::{LowPass, LowPassState};
 use bowden::Error;
 use core::hint::black_box;
@@ -61,7 +61,7 @@ impl Case for Slow {
         let out = self.0.step(&mut self.1, position, at.dt);
         Output {
             value: out.velocity,
-            status: u32::from(matches!(out.status, EdgeStatus::Held(_))),
+            status: u32::from(matches!(out.status, RateStatus::Held(_))),
         }
     }
 }

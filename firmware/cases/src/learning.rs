@@ -39,7 +39,7 @@ impl Cycle {
         }
         let sample = IterativeLearningInput::new(phase, at.reference, at.measured);
         let out = learning.step(&mut self.state, &sample);
-        Output::commanded(out.feed_forward, out.status)
+        Output::commanded(out.command, out.status)
     }
 }
 

@@ -27,7 +27,7 @@ fn step(
         measured: at.measured,
     };
     let out = observer.step(state, &sample);
-    Output::commanded(out.estimate, out.status)
+    Output::commanded(out.command, out.status)
 }
 
 /// The compiler knows none of its numbers.

@@ -2,8 +2,7 @@
 
 use crate::{Case, Output, Sample};
 use bowden::constant;
-use bowden::control::{Fallback, Limits, Relay as Experiment, RelayPhase, RelaySettings};
-use bowden::control::{RelayOutput, RelayState};
+use bowden::control::{Fallback, Limits, Relay as Experiment, RelaySettings, RelayState, Status};
 use bowden::Error;
 use core::hint::black_box;
 
@@ -38,25 +37,21 @@ impl Case for Relay {
         })
     }
 
+    /// The command, or the ultimate gain at the end of an experiment.
     #[inline]
     fn step(&mut self, at: &Sample) -> Output {
-        if !self.state.phase().is_running() {
+        if !self.state.is_running() {
             self.state = RelayState::new();
         }
-        compared(&self.relay.step(&mut self.state, at.dt, at.measured))
+        let out = self.relay.step(&mut self.state, at.dt, at.measured);
+        let (value, status) = match (out.status, self.state.result()) {
+            (Status::Good, Some(ultimate)) => (ultimate.gain, 4),
+            (Status::Good, None) => (out.command, 0),
+            (Status::Held(_), _) => (out.command, 1),
+            (Status::Safe(_) | Status::Degraded(_), _) => (out.command, 2),
+        };
+        Output { value, status }
     }
-}
-
-/// The command, or the ultimate gain at the end of an experiment.
-#[inline]
-fn compared(out: &RelayOutput<f32>) -> Output {
-    let (value, status) = match out.phase {
-        RelayPhase::Running => (out.command, 0),
-        RelayPhase::Held(_) => (out.command, 1),
-        RelayPhase::Failed(_) => (out.command, 2),
-        RelayPhase::Done(ultimate) => (ultimate.gain, 4),
-    };
-    Output { value, status }
 }
 
 #[cfg(test)]

@@ -96,6 +96,6 @@ impl Running {
         let at = IterativeLearningInput::new(cycles - cycles.floor(), reference, measured);
         let out = self.learned.learning.step(&mut self.state, &at);
         let wanted = ahead(self.learned.latency);
-        out.feed_forward + self.learned.plant.feed_forward(&wanted)
+        out.command + self.learned.plant.feed_forward(&wanted)
     }
 }

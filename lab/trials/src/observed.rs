@@ -29,6 +29,6 @@ impl<'a> Observing<'a> {
         let at = ObserverInput { dt, sent, measured };
         let seen = self.observer.step(&mut self.state, &at);
         let wanted = ahead(self.observer.latency());
-        seen.estimate + self.observer.plant().feed_forward(&wanted)
+        seen.command + self.observer.plant().feed_forward(&wanted)
     }
 }

@@ -2,7 +2,6 @@
 
 mod adaptive;
 mod compensator;
-mod law;
 mod learning;
 mod observer;
 mod pid;
@@ -16,7 +15,6 @@ use std::hint::black_box;
 pub use adaptive::law;
 
 pub fn all<T: Real>() -> Option<()> {
-    law::all::<T>();
     never_panics!(control_limits_try_new, Limits::<T>::try_new(any(), any()));
     never_panics!(control_limits_unlimited, Limits::<T>::unlimited());
     let limits = black_box(Limits::<T>::unlimited());
@@ -48,7 +46,6 @@ pub fn all<T: Real>() -> Option<()> {
 
     let status = black_box(Status::Good);
     never_panics!(control_status_fault, status.fault());
-    never_panics!(control_status_is_live, status.is_live());
     let at = LoopSample::new(any(), any(), any());
     never_panics!(
         control_controller_new,

@@ -8,10 +8,6 @@ use std::hint::black_box;
 pub fn all<T: Real>() -> Option<()> {
     never_panics!(signal_clamp_clamp, clamp::<T>(any(), any(), any()));
 
-    never_panics!(signal_compensated_new, Compensated::<T>::new(any()));
-    let sum = black_box(Compensated::<T>::new(any()));
-    never_panics!(signal_compensated_plus, sum.plus(any()));
-
     never_panics!(
         signal_plausible_try_new,
         Plausible::<T>::try_new(any(), any())

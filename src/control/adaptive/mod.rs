@@ -17,9 +17,9 @@
 //!
 //! **Bounds on the estimates.** The law clamps each estimate to its bounds (projection). If the
 //! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
-//! invariant holds for any measurement. The paper uses no bounds, so [`AdaptiveSettings::paper`]
-//! has bounds as wide as the range of the float. The first-order form requires bounds above zero
-//! for beta_hat, and bounds not below zero for delta_hat.
+//! invariant holds for any measurement. The paper uses no bounds: [`Adaptive::paper`] has
+//! bounds as wide as the range of the float. The first-order form requires bounds above zero for
+//! beta_hat, and bounds not below zero for delta_hat.
 
 mod estimator;
 #[cfg(kani)]
@@ -37,7 +37,7 @@ pub use recursion::{Disturbance, ErrorState, LagRecursion};
 pub use settings::{AdaptiveSettings, Form, OnMissing};
 pub use smooth_sign::SmoothSign;
 pub(crate) use state::End;
-pub use state::{AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
+pub use state::{AdaptiveInput, AdaptiveState, AdaptiveTerms};
 
 use crate::Real;
 
@@ -75,12 +75,6 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.longest
     }
 
-    /// Longest `dt` \[s\] that the box theorem of the first-order form admits; `None` for the
-    /// form as published. See [`AdaptiveSettings::largest_step`].
-    pub fn largest_step(&self) -> Option<T> {
-        self.settings.largest_step()
-    }
-
     /// Whether the state is valid for this law: its numbers are finite and every estimate is within
     /// its bounds.
     ///
@@ -111,9 +105,31 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 impl<T: Real> Adaptive<T, 2> {
-    /// The law with Table 2 of Nguyen et al. (2018): [`AdaptiveSettings::paper`].
+    /// Table 2 of Nguyen et al. (2018), with the paper's initial estimates and no projection.
+    ///
+    /// The form is as published. The filter of the error's rate, 5 ms, is not in the paper. The
+    /// regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley.
+    /// The estimate beta_hat starts at zero, the singular point of the loop, so the start-up
+    /// overshoots (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this overshoot.
+    ///
+    /// ```
+    /// use bowden::control::Adaptive;
+    /// let table_2 = *Adaptive::<f64, 2>::paper().settings();
+    /// assert_eq!(table_2.lambda * table_2.delta.gain, 0.05); // lambda·mu
+    /// assert_eq!((table_2.beta.initial, table_2.delta.initial), (0.0, 7.0));
+    /// ```
     pub fn paper() -> Self {
-        let settings = AdaptiveSettings::paper();
+        let (of, leakage) = (T::from_f64, T::from_f64(0.01));
+        let velocity = Estimator::free(T::zero()).adapting(of(0.004 / 8.0), leakage);
+        let literal = Form::AsPublished {
+            time_constant: of(0.005),
+        };
+        let settings = AdaptiveSettings {
+            beta: Estimator::free(T::zero()).adapting(of(0.002 / 8.0), leakage),
+            delta: Estimator::free(of(7.0)).adapting(of(0.05 / 8.0), leakage),
+            theta: [velocity; 2],
+            ..AdaptiveSettings::unlimited(literal, of(24.0), of(8.0), of(0.05))
+        };
         Self {
             // Of the form as published.
             longest: settings.longest_dt,

@@ -278,38 +278,3 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         Some(largest_step(self, plant_gain))
     }
 }
-
-impl<T: Real> AdaptiveSettings<T, 2> {
-    /// Table 2 of Nguyen et al. (2018), with the paper's initial estimates and no projection.
-    ///
-    /// The form is as published, with a filter of 5 ms for the error's rate, which the paper does
-    /// not specify. The regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the
-    /// proximal pulley. The estimate beta_hat starts at zero, the singular point of the loop, so
-    /// the start-up overshoots (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this
-    /// overshoot.
-    ///
-    /// ```
-    /// use bowden::control::AdaptiveSettings;
-    /// let table_2 = AdaptiveSettings::<f64, 2>::paper();
-    /// assert_eq!(table_2.lambda * table_2.delta.gain, 0.05); // lambda·mu
-    /// assert_eq!((table_2.beta.initial, table_2.delta.initial), (0.0, 7.0));
-    /// ```
-    pub fn paper() -> Self {
-        let leakage = T::from_f64(0.01);
-        let velocity = Estimator::free(T::zero()).adapting(T::from_f64(0.004 / 8.0), leakage);
-        let literal = Form::AsPublished {
-            time_constant: T::from_f64(0.005),
-        };
-        Self {
-            beta: Estimator::free(T::zero()).adapting(T::from_f64(0.002 / 8.0), leakage),
-            delta: Estimator::free(T::from_f64(7.0)).adapting(T::from_f64(0.05 / 8.0), leakage),
-            theta: [velocity; 2],
-            ..Self::unlimited(
-                literal,
-                T::from_f64(24.0),
-                T::from_f64(8.0),
-                T::from_f64(0.05),
-            )
-        }
-    }
-}

@@ -4,8 +4,8 @@ use super::Adaptive;
 use crate::control::status::Held;
 #[cfg(feature = "serde")]
 use crate::control::status::Latch;
-use crate::control::{Applied, Status};
-use crate::signal::{gap_after, Compensated, DerivativeState};
+use crate::control::Applied;
+use crate::signal::{Compensated, DerivativeState};
 use crate::Real;
 
 /// One sample for an [`Adaptive`] law.
@@ -44,18 +44,6 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
             feed_forward: T::ZERO,
         }
     }
-}
-
-/// Output of [`Adaptive::step_with_terms`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct AdaptiveOutput<T, const N: usize> {
-    /// The command \[command unit\], finite and within the limits.
-    pub command: T,
-    /// Whether the sample was good.
-    pub status: Status,
-    /// Every term of the law.
-    pub terms: AdaptiveTerms<T, N>,
 }
 
 /// Every term of the law in one step, with the estimates that the step used.
@@ -264,10 +252,5 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Whether the safe command is latched.
     pub fn is_latched(&self) -> bool {
         self.held.is_latched()
-    }
-
-    /// Counts the time of a bad sample.
-    pub(super) fn wait(&mut self, dt: T, longest: T) {
-        self.gap = gap_after(self.gap, dt, longest);
     }
 }

@@ -1,13 +1,14 @@
 //! One step of the law, in the order that the theorems assume; its equations are in
-//! [`law`].
+//! `control/law.rs`.
 
 use super::state::End;
-use super::{Adaptive, AdaptiveInput, AdaptiveOutput, AdaptiveState, AdaptiveTerms};
+use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use super::{Form, OnMissing};
-use crate::control::status::{fault_of_dt, unless_finite, Latch};
-use crate::control::{law, Fault, Output, Status};
+use crate::control::status::Latch;
+use crate::control::{law, Fault, Output, Status, Telemetry};
 use crate::error::{is_usable, rarely};
-use crate::signal::{Compensated, Derivative, DerivativeState};
+use crate::fault::{fault_of_dt, unless_finite};
+use crate::signal::{gap_after, Compensated, Derivative, DerivativeState};
 use crate::Real;
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
@@ -58,24 +59,19 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         &self,
         state: &mut AdaptiveState<T, N>,
         input: &AdaptiveInput<T, N>,
-    ) -> AdaptiveOutput<T, N> {
-        let terms = if state.held.latch == Latch::Returning {
-            self.terms(&self.returned(state, input), input)
-        } else {
-            self.terms(state, input)
-        };
-        let Output { command, status } = self.step(state, input);
-        let terms = if status == Status::Good {
-            let limited = command != terms.unlimited;
+    ) -> Telemetry<T, AdaptiveTerms<T, N>> {
+        let mut before = *state;
+        if state.held.is_returning() {
+            self.go_back(&mut before, input);
+        }
+        let terms = self.terms(&before, input);
+        let output = self.step(state, input);
+        output.with(if output.status == Status::Good {
+            let limited = output.command != terms.unlimited;
             AdaptiveTerms { limited, ..terms }
         } else {
             AdaptiveTerms::at_rest(state)
-        };
-        AdaptiveOutput {
-            command,
-            status,
-            terms,
-        }
+        })
     }
 
     /// Every term that a step on a good sample would have, computed from the state before that
@@ -202,7 +198,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
                     dropped.map_or(Status::Good, Status::Degraded)
                 }
                 Err(fault) => {
-                    state.wait(input.dt, self.longest);
+                    state.gap = gap_after(state.gap, input.dt, self.longest);
                     state.held.bad_after_step(fault, fallback)
                 }
             },
@@ -251,18 +247,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         next
     }
 
-    /// The state from which the first good sample after a safe command continues.
-    fn returned(
-        &self,
-        state: &AdaptiveState<T, N>,
-        live: &AdaptiveInput<T, N>,
-    ) -> AdaptiveState<T, N> {
-        let mut next = *state;
-        self.go_back(&mut next, live);
-        next
-    }
-
-    /// Moves a state there: z, rate, lag, gap and command. A call, because its bisection needs
+    /// Moves a state to where the first good sample after a safe command continues: z, rate, lag,
+    /// gap and command. A call, because its bisection needs
     /// a stack frame of its own.
     #[inline(never)]
     fn go_back(&self, state: &mut AdaptiveState<T, N>, live: &AdaptiveInput<T, N>) {
@@ -285,7 +271,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         for ((i, x), missing) in input.regressors.iter_mut().enumerate().zip(policies) {
             if !x.is_finite() && *missing == OnMissing::DropRegressor {
                 *x = T::ZERO;
-                dropped = dropped.or(Some(Fault::Regressor(u8::try_from(i).unwrap_or(u8::MAX))));
+                dropped = dropped.or(Some(Fault::of_regressor(i)));
             }
         }
         match self.fault(input) {
@@ -307,7 +293,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             .or_else(|| unless_finite(input.measured, Fault::Measured))
             .or_else(|| {
                 let first = input.regressors.iter().position(bad)?;
-                Some(Fault::Regressor(u8::try_from(first).unwrap_or(u8::MAX)))
+                Some(Fault::of_regressor(first))
             })
             .or_else(|| unless_finite(input.feed_forward, Fault::FeedForward))
     }

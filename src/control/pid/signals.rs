@@ -1,6 +1,5 @@
 //! Input and output of a step of a [`Pid`](super::Pid).
 
-use crate::control::Status;
 use crate::Real;
 
 crate::data! {
@@ -41,16 +40,6 @@ impl<T: Real> PidInput<T> {
 }
 
 crate::data! {
-    /// Output of [`Pid::step_with_terms`](super::Pid::step_with_terms).
-    pub struct PidOutput<T> {
-        /// Command for the drive \[command unit\]: finite and within the limits.
-        pub command: T,
-        /// Status of the sample: good, or the fault and the substitute command.
-        pub status: Status,
-        /// Telemetry. On a bad sample these are the terms of the last good sample.
-        pub terms: PidTerms<T>,
-    }
-
     /// Every term of the last good sample; they add up to `unlimited`.
     ///
     /// ```

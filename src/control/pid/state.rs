@@ -6,7 +6,7 @@ use crate::checked::Finite;
 use crate::control::status::Held;
 use crate::control::Status;
 use crate::error::is_usable;
-use crate::signal::{gap_after, Compensated};
+use crate::signal::Compensated;
 use crate::Real;
 
 crate::checked::stored! {
@@ -127,16 +127,9 @@ impl<T: Real> PidState<T> {
     /// assert_eq!(pid.step(&mut state, &at).command, 42.0);
     /// ```
     pub fn resume_from(&mut self, pid: &Pid<T>, output: T, at: &PidInput<T>) -> Status {
-        let fallback = &pid.settings().fallback;
-        if let Some(safe) = self.held.latched(fallback) {
-            return safe;
-        }
-        match pid.started_at(output, at) {
-            Ok((last, integral)) => {
-                self.start(pid.settings().limits.clamp(output), last, integral);
-                Status::Good
-            }
-            Err(fault) => self.held.bad(fault, fallback),
+        match self.held.latched(&pid.settings().fallback) {
+            Some(safe) => safe,
+            None => pid.restart(self, output, at),
         }
     }
 
@@ -244,10 +237,5 @@ impl<T: Real> PidState<T> {
         self.last = Some(last);
         self.held.command = command;
         command
-    }
-
-    /// Counts the time of a bad sample.
-    pub(super) fn wait(&mut self, dt: T, longest: T) {
-        self.gap = gap_after(self.gap, dt, longest);
     }
 }

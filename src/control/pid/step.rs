@@ -5,7 +5,7 @@ use super::{AntiWindup, DerivativeSource, Pid, PidInput, PidState};
 use crate::control::limits::around;
 use crate::control::{Fault, Output, Status};
 use crate::error::{is_usable, rarely};
-use crate::signal::{clamp, greatest, least, Compensated};
+use crate::signal::{clamp, gap_after, greatest, least, Compensated};
 use crate::Real;
 
 impl<T: Real> Pid<T> {
@@ -137,9 +137,14 @@ impl<T: Real> Pid<T> {
         let status = state.held.latched(&s.fallback).unwrap_or_else(|| {
             let fault = self.fault(at);
             if fault.is_none() && state.held.is_returning() {
-                return self.close(state, at);
+                // It starts from the safe command.
+                let status = self.restart(state, s.limits.clamp(state.command()), at);
+                if status == Status::Good {
+                    state.held.good();
+                }
+                return status;
             }
-            state.wait(at.dt, s.longest_dt);
+            state.gap = gap_after(state.gap, at.dt, s.longest_dt);
             state
                 .held
                 .bad_after_step(fault.unwrap_or(Fault::Overflow), &s.fallback)
@@ -151,13 +156,11 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The first good sample after an acknowledged safe command: it starts from that command.
-    fn close(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Status {
-        let command = self.settings.limits.clamp(state.command());
-        match self.started_at(command, at) {
+    /// Starts at a sample so that the command continues from `output`; a bad sample counts.
+    pub(super) fn restart(&self, state: &mut PidState<T>, output: T, at: &PidInput<T>) -> Status {
+        match self.started_at(output, at) {
             Ok((last, integral)) => {
-                state.start(command, last, integral);
-                state.held.good();
+                state.start(self.settings.limits.clamp(output), last, integral);
                 Status::Good
             }
             Err(fault) => state.held.bad(fault, &self.settings.fallback),

@@ -1,6 +1,6 @@
 //! State of a [`Relay`](super::Relay) between samples.
 
-use super::RelayPhase;
+use super::Ultimate;
 use crate::control::status::Held;
 use crate::signal::{clamp, Compensated};
 use crate::Real;
@@ -12,13 +12,12 @@ crate::checked::stored! {
     /// has stopped.
     ///
     /// ```
-    /// use bowden::control::{RelayPhase, RelayState};
+    /// use bowden::control::RelayState;
     /// let state = RelayState::<f32>::new();
-    /// assert_eq!((state.phase(), state.cycles()), (RelayPhase::Running, 0));
+    /// assert!(state.is_running() && state.result().is_none() && state.cycles() == 0);
     /// ```
     pub struct RelayState<T> {
         pub(super) held: Held<T>,
-        pub(super) phase: RelayPhase<T>,
         /// Ticks until the end of `longest_time`.
         pub(super) remaining: u32,
         /// Whether the command is `centre + d`; none before the first good sample.
@@ -27,9 +26,10 @@ crate::checked::stored! {
         pub(super) cycle: Option<Cycle<T>>,
         pub(super) mean: Mean<T>,
         pub(super) cycles: u32,
+        pub(super) result: Option<Ultimate<T>>,
     }
     => {
-        finite(Self { held: held.remembering(), phase, remaining, upper, cycle, mean, cycles })
+        finite(Self { held: held.remembering(), remaining, upper, cycle, mean, cycles, result })
     }
 }
 
@@ -116,7 +116,6 @@ impl<T: Real> RelayState<T> {
     const fn starting_from(command: T) -> Self {
         Self {
             held: Held::new(command),
-            phase: RelayPhase::Running,
             remaining: u32::MAX,
             upper: None,
             cycle: None,
@@ -127,6 +126,7 @@ impl<T: Real> RelayState<T> {
                 duty: T::ZERO,
             },
             cycles: 0,
+            result: None,
         }
     }
 
@@ -145,9 +145,14 @@ impl<T: Real> RelayState<T> {
         self.held.command
     }
 
-    /// Phase after the last sample.
-    pub const fn phase(&self) -> RelayPhase<T> {
-        self.phase
+    /// The result of an experiment that has succeeded.
+    pub const fn result(&self) -> Option<Ultimate<T>> {
+        self.result
+    }
+
+    /// Whether the experiment is still running: it has neither succeeded nor failed.
+    pub fn is_running(&self) -> bool {
+        self.result.is_none() && !self.is_latched()
     }
 
     /// Number of complete cycles, including cycles outside the average.
@@ -168,7 +173,7 @@ impl<T: Real> RelayState<T> {
 
     /// Whether the safe command is latched.
     pub fn is_latched(&self) -> bool {
-        matches!(self.phase, RelayPhase::Failed(_)) || self.held.is_latched()
+        self.held.is_latched()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::plants::{Plant, Sampled};
 use super::{ended, result, usual};
-use bowden::control::{Fault, Relay, RelayFailure, RelayPhase, RelaySettings, RelayState};
+use bowden::control::{Fault, Relay, RelaySettings, RelayState, Status};
 
 const SAFE: f64 = 0.25;
 
@@ -15,7 +15,7 @@ fn under_way(relay: &Relay<f64>) -> (RelayState<f64>, Plant) {
     let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
     while state.cycles() < 2 {
         let out = relay.step(&mut state, 0.01, plant.output());
-        assert_eq!(out.phase, RelayPhase::Running);
+        assert!(out.status == Status::Good && state.is_running());
         plant.run(out.command, 0.01);
     }
     (state, plant)
@@ -23,8 +23,8 @@ fn under_way(relay: &Relay<f64>) -> (RelayState<f64>, Plant) {
 
 /// The safe command is out, whatever comes, until it is acknowledged; then the experiment starts
 /// again and succeeds.
-fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason: RelayFailure) {
-    let failed = RelayPhase::Failed(reason);
+fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason: Fault) {
+    let failed = Status::Safe(reason);
     assert!(state.is_latched());
     for k in 0..1000 {
         let bad = [(0.01, f64::NAN), (f64::NAN, 0.0), (9.0, 0.0), (0.01, 1e300)];
@@ -35,8 +35,8 @@ fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason
             bad[k as usize / 2 % 4]
         };
         let out = relay.step(&mut state, dt, measured);
-        assert_eq!((out.command, out.phase), (SAFE, failed));
-        assert_eq!(state.phase(), failed);
+        assert_eq!((out.command, out.status), (SAFE, failed));
+        assert!(!state.is_running() && state.result().is_none());
     }
     state.acknowledge();
     assert!(!state.is_latched());
@@ -44,14 +44,14 @@ fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason
     // A bad sample does not switch the relay on.
     let held = relay.step(&mut state, 0.01, f64::NAN);
     assert_eq!(held.command, SAFE);
-    assert_eq!(held.phase, RelayPhase::Held(Fault::Measured));
+    assert_eq!(held.status, Status::Held(Fault::Measured));
     let mut plant = Plant::third_order();
     loop {
         let out = relay.step(&mut state, 0.01, plant.output());
-        if let RelayPhase::Done(_) = out.phase {
+        assert_eq!(out.status, Status::Good);
+        if state.result().is_some() {
             break;
         }
-        assert_eq!(out.phase, RelayPhase::Running);
         plant.run(out.command, 0.01);
     }
 }
@@ -73,12 +73,11 @@ fn a_bad_sample_holds_the_command_and_too_many_are_the_end() {
         assert_eq!(before, 1.0);
         for _ in 0..9 {
             let out = relay.step(&mut state, dt, measured);
-            assert_eq!((out.command, out.phase), (before, RelayPhase::Held(fault)));
+            assert_eq!((out.command, out.status), (before, Status::Held(fault)));
         }
         let out = relay.step(&mut state, dt, measured);
-        let reason = RelayFailure::BadSamples(fault);
-        assert_eq!((out.command, out.phase), (SAFE, RelayPhase::Failed(reason)));
-        stays_and_starts_again(&relay, state, reason);
+        assert_eq!((out.command, out.status), (SAFE, Status::Safe(fault)));
+        stays_and_starts_again(&relay, state, fault);
     }
 }
 
@@ -88,14 +87,11 @@ fn an_output_out_of_range_is_the_end_at_once() {
     for measured in [10.01, -10.01, f64::MAX, f64::MIN] {
         let (mut state, _) = under_way(&relay);
         relay.step(&mut state, 0.01, 10.0 * measured.signum());
-        assert_eq!(state.phase(), RelayPhase::Running);
+        assert!(state.is_running());
         let out = relay.step(&mut state, 0.01, measured);
         assert_eq!(out.command, SAFE);
-        assert_eq!(
-            out.phase,
-            RelayPhase::Failed(RelayFailure::OutputOutOfRange)
-        );
-        stays_and_starts_again(&relay, state, RelayFailure::OutputOutOfRange);
+        assert_eq!(out.status, Status::Safe(Fault::OutputOutOfRange));
+        stays_and_starts_again(&relay, state, Fault::OutputOutOfRange);
     }
 }
 
@@ -108,17 +104,14 @@ fn the_wrong_sign_of_the_amplitude_fails() {
     };
     let plant = Plant::third_order();
     let (out, state) = ended::<f64>(settings, &plant, &mut Sampled::every(0.01));
-    assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::NoOscillation));
+    assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
     assert_eq!((out.command, state.cycles()), (SAFE, 0));
     let narrow = RelaySettings {
         most_deviation: 0.5,
         ..settings
     };
     let (out, _) = ended::<f64>(narrow, &plant, &mut Sampled::every(0.01));
-    assert_eq!(
-        out.phase,
-        RelayPhase::Failed(RelayFailure::OutputOutOfRange)
-    );
+    assert_eq!(out.status, Status::Safe(Fault::OutputOutOfRange));
 }
 
 /// A load above the amplitude, an output that does not move, a lag that follows at once.
@@ -128,8 +121,8 @@ fn no_oscillation_is_told_at_the_longest_time() {
     let still = Plant::new(0.0, &[1.0], 0.0);
     for plant in [loaded, still] {
         let (out, state) = ended::<f64>(usual(), &plant, &mut Sampled::every(0.01));
-        let reason = RelayFailure::NoOscillation;
-        assert_eq!((out.command, out.phase), (SAFE, RelayPhase::Failed(reason)));
+        let reason = Fault::NoOscillation;
+        assert_eq!((out.command, out.status), (SAFE, Status::Safe(reason)));
         stays_and_starts_again(&relay(), state, reason);
     }
 }
@@ -139,9 +132,9 @@ fn no_oscillation_is_told_at_the_longest_time() {
 fn a_cycle_of_a_few_samples_is_no_result() {
     let plant = Plant::new(1.0, &[1.0], 0.0);
     let (out, state) = ended::<f64>(usual(), &plant, &mut Sampled::every(0.01));
-    assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::TimeOut));
+    assert_eq!(out.status, Status::Safe(Fault::TimeOut));
     assert!(state.cycles() > 1000);
-    stays_and_starts_again(&relay(), state, RelayFailure::TimeOut);
+    stays_and_starts_again(&relay(), state, Fault::TimeOut);
 }
 
 /// Noise far beyond the hysteresis: every period is another one, or too short.
@@ -150,7 +143,7 @@ fn chatter_is_no_result() {
     for seed_dt in [0.01, 0.011, 0.012] {
         let mut sampled = Sampled::every(seed_dt).noisy(0.5);
         let (out, _) = ended::<f64>(usual(), &Plant::third_order(), &mut sampled);
-        assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::TimeOut));
+        assert_eq!(out.status, Status::Safe(Fault::TimeOut));
         assert_eq!(out.command, SAFE);
     }
 }
@@ -170,7 +163,7 @@ fn bad_measurements_whose_time_is_known_leave_the_result() {
         };
         let out = relay.step(&mut state, 0.005, measured);
         plant.run(out.command, 0.005);
-        if let RelayPhase::Done(it) = out.phase {
+        if let Some(it) = state.result() {
             // A switch is one sample later at most, and the cycle longer by four.
             assert!(
                 (it.period - expected.period).abs() < 4.0 * 0.005,
@@ -182,7 +175,7 @@ fn bad_measurements_whose_time_is_known_leave_the_result() {
             );
             return;
         }
-        assert!(out.phase.is_running(), "{out:?}");
+        assert!(state.is_running(), "{out:?}");
     }
 }
 
@@ -201,14 +194,14 @@ fn a_cycle_whose_time_is_unknown_does_not_count() {
         // Less than half of any cycle.
         let dt = if time % 50 == 49 { f64::NAN } else { 0.01 };
         let out = relay.step(&mut state, dt, plant.output());
-        if !out.phase.is_running() {
+        if !state.is_running() {
             break out;
         }
         plant.run(out.command, 0.01);
         time += 1;
     };
     assert_eq!(state.cycles(), 0);
-    assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::NoOscillation));
+    assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
     assert_eq!(out.command, SAFE);
 }
 
@@ -220,13 +213,15 @@ fn a_result_leaves_the_centre_out_whatever_comes() {
     };
     let (out, mut state) = ended::<f64>(settings, &Plant::third_order(), &mut Sampled::every(0.01));
     let relay = Relay::try_new(settings).unwrap();
-    assert!(matches!(out.phase, RelayPhase::Done(_)));
+    let found = state.result();
+    assert!(found.is_some() && out.status == Status::Good);
     for k in 0..1000 {
         let measured = [0.0, f64::NAN, 1e9, -1.0][k % 4];
         let after = relay.step(&mut state, [0.01, f64::NAN, 9.0][k % 3], measured);
-        assert_eq!((after.command, after.phase), (0.1, out.phase));
+        assert_eq!(after, out);
+        assert_eq!((after.command, state.result()), (0.1, found));
     }
     // Nothing to acknowledge.
     state.acknowledge();
-    assert_eq!(state.phase(), out.phase);
+    assert_eq!(state.result(), found);
 }

@@ -2,7 +2,7 @@
 
 use super::plants::{Plant, Sampled};
 use super::{ended, usual};
-use bowden::control::{Fallback, Relay, RelayFailure, RelayPhase, RelaySettings, RelayState};
+use bowden::control::{Fallback, Fault, Relay, RelaySettings, RelayState, Status};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -30,9 +30,9 @@ proptest! {
             ..usual()
         };
         let mut sampled = Sampled::every(period / 200.0).jittering(jitter);
-        let (out, _) = ended::<f64>(settings, &plant, &mut sampled);
-        let RelayPhase::Done(it) = out.phase else {
-            return Err(TestCaseError::fail(format!("{:?}", out.phase)));
+        let (out, state) = ended::<f64>(settings, &plant, &mut sampled);
+        let Some(it) = state.result() else {
+            return Err(TestCaseError::fail(format!("{:?}", out.status)));
         };
         // The describing function, −19 % to +28 %, and the sampling: two samples of 1 % of a radian.
         let share = sign * it.gain / true_gain;
@@ -69,7 +69,7 @@ proptest! {
             time += if usable { f64::from(dt) } else { 0.1 };
             let before = state.remaining();
             let out = relay.step(&mut state, dt, measured);
-            if !out.phase.is_running() {
+            if !state.is_running() {
                 ended_at = Some(time);
                 break;
             }
@@ -98,11 +98,11 @@ fn the_longest_time_is_neither_shortened_nor_exceeded() {
         let out = loop {
             count += 1;
             let out = relay.step(&mut state, dt, 1.0);
-            if !out.phase.is_running() {
+            if !state.is_running() {
                 break out;
             }
         };
-        assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::NoOscillation));
+        assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
         let expected = 100.0 / f64::from(dt);
         // n/2³² of the time, and the sample in which it is over; f32 knows a share to 1e-7.
         let early = expected * expected / 4.3e9 + 1.0 + 2e-7 * expected;
@@ -141,10 +141,11 @@ fn samples_without_a_time_take_the_longest_one() {
     for dt in [f64::NAN, 0.0, -1.0, 9.0] {
         let mut state = RelayState::new();
         for _ in 0..399 {
-            assert!(relay.step(&mut state, dt, 0.0).phase.is_running());
+            relay.step(&mut state, dt, 0.0);
+            assert!(state.is_running());
         }
         let out = relay.step(&mut state, dt, 0.0);
-        assert_eq!(out.phase, RelayPhase::Failed(RelayFailure::NoOscillation));
+        assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
         assert_eq!(out.command, 0.25);
     }
 }

@@ -71,7 +71,7 @@ fn what_is_stored_is_checked_when_it_is_read() {
     crate::reads_back(&relay, &[cycles, ("agreement", "accord")]);
 
     let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
-    while state.phase().is_running() {
+    while state.is_running() {
         crate::reads_back(&state, &[]);
         let out = relay.step(&mut state, 0.02, plant.output());
         plant.run(out.command, 0.02);
