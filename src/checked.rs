@@ -84,39 +84,44 @@ pub(crate) use checked;
 
 /// Plain data: the derived traits that each such type has, and its stored form.
 ///
-/// Reading refuses unknown fields. The names of variants are in kebab case.
+/// Reading refuses unknown fields. The names of variants are in kebab case. `<T: Real>` if the
+/// stored form of a field requires this of `T`; the type itself does not.
 macro_rules! data {
     () => {};
-    ($(#[$attr:meta])* $vis:vis $kind:ident $name:ident { $($body:tt)* } $($more:tt)*) => {
-        crate::data! { @ $kind [] $(#[$attr])* $vis $kind $name { $($body)* } }
-        crate::data! { $($more)* }
-    };
     (
-        $(#[$attr:meta])* $vis:vis $kind:ident $name:ident<T $(, const $n:ident: usize)?> { $($body:tt)* }
+        $(#[$attr:meta])*
+        $vis:vis $kind:ident $name:ident $(<T $(: $real:ident)? $(, const $n:ident: usize)?>)?
+        { $($body:tt)* }
         $($more:tt)*
     ) => {
         crate::data! {
-            @ $kind
-            [, bound(
-                serialize = "T: crate::Real + serde::Serialize",
-                deserialize = "T: crate::Real + serde::Deserialize<'de>"
-            )]
-            $(#[$attr])* $vis $kind $name<T $(, const $n: usize)?> { $($body)* }
+            @ $kind [$($($real)?)?]
+            $(#[$attr])* $vis $kind $name $(<T $(, const $n: usize)?>)? { $($body)* }
         }
         crate::data! { $($more)* }
     };
-    (@ enum [$($bound:tt)*] $($item:tt)+) => {
-        crate::data! { @ [, rename_all = "kebab-case" $($bound)*] $($item)+ }
+    (@ enum $real:tt $($item:tt)+) => {
+        crate::data! { @ $real [rename_all = "kebab-case", deny_unknown_fields] $($item)+ }
     };
-    (@ struct $bound:tt $($item:tt)+) => {
-        crate::data! { @ $bound $($item)+ }
+    (@ struct $real:tt $($item:tt)+) => {
+        crate::data! { @ $real [deny_unknown_fields] $($item)+ }
     };
-    (@ [$($serde:tt)*] $($item:tt)+) => {
+    (@ [Real] [$($serde:tt)*] $($item:tt)+) => {
+        crate::data! {
+            @ []
+            [$($serde)*, bound(
+                serialize = "T: crate::Real + serde::Serialize",
+                deserialize = "T: crate::Real + serde::Deserialize<'de>"
+            )]
+            $($item)+
+        }
+    };
+    (@ [] [$($serde:tt)*] $($item:tt)+) => {
         #[derive(Debug, Clone, Copy, PartialEq)]
         #[cfg_attr(
             feature = "serde",
             derive(serde::Serialize, serde::Deserialize),
-            serde(deny_unknown_fields $($serde)*)
+            serde($($serde)*)
         )]
         #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         $($item)+

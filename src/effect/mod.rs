@@ -38,7 +38,7 @@ macro_rules! effects {
         $(pub use $module::$effect;)+
 
         crate::data! {
-            enum Kind<T> {
+            enum Kind<T: Real> {
                 $($effect $(($effect<$T>))?,)+
             }
         }

@@ -88,7 +88,7 @@ crate::data! {
     /// assert_eq!((velocity.initial, velocity.low, velocity.high), (2.7, 0.0, 6.0));
     /// ```
     #[cfg_attr(feature = "serde", serde(default))]
-    pub struct Estimator<T> {
+    pub struct Estimator<T: Real> {
         /// Initial value of the estimate \[unit of the estimate\], within the bounds.
         pub initial: T,
         /// Lower bound \[unit of the estimate\].

@@ -64,7 +64,7 @@ crate::data! {
     /// let wider = AdaptiveSettings { epsilon: 0.1, ..settings };
     /// assert!(Adaptive::try_new(wider).is_ok());
     /// ```
-    pub struct AdaptiveSettings<T, const N: usize> {
+    pub struct AdaptiveSettings<T: Real, const N: usize> {
         /// Form as published, or first-order form.
         pub form: Form<T>,
         /// Control gain k, above zero.

@@ -108,7 +108,7 @@ crate::data! {
     /// assert_eq!(pid.settings().k_d, 2.0);
     /// # Ok::<(), bowden::Error>(())
     /// ```
-    pub struct PidSettings<T> {
+    pub struct PidSettings<T: Real> {
         /// Proportional gain \[command unit/output unit\]; finite.
         pub k_p: T,
         /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the sign of `k_p`.

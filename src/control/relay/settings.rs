@@ -27,7 +27,7 @@ crate::data! {
     /// }));
     /// assert_eq!(RELAY.settings().cycles, 4);
     /// ```
-    pub struct RelaySettings<T> {
+    pub struct RelaySettings<T: Real> {
         /// Reference y_r, about which the output oscillates \[output unit\]; finite.
         pub reference: T,
         /// Mean of the two levels of the command \[command unit\]; finite.
