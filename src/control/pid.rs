@@ -104,17 +104,6 @@ impl<T: Real> Pid<T> {
         })
     }
 
-    /// A PI as the reference for an adaptive law: `k_p` = 30, `k_i` = 320. It has no limits.
-    ///
-    /// The value 320 is the effective integral gain of the paper's adaptive law. Without this PI, a
-    /// comparison would attribute the effect of a higher gain to adaptation.
-    pub fn matched_pi() -> Self {
-        Self::assumed(PidSettings::unlimited(
-            T::from_f64(30.0),
-            T::from_f64(320.0),
-        ))
-    }
-
     /// The settings of this controller.
     pub fn settings(&self) -> &PidSettings<T> {
         &self.settings

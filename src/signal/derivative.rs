@@ -59,11 +59,6 @@ impl<T: Real> Derivative<T> {
         Self { time_constant }
     }
 
-    /// The time constant \[s\].
-    pub fn time_constant(&self) -> T {
-        self.time_constant
-    }
-
     /// The filtered rate [signal unit/s] at a sample taken `dt` \[s\] after the last one.
     ///
     /// A sample is bad if it is not finite, if `dt` is not positive and finite, or if the result

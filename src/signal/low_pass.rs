@@ -60,11 +60,6 @@ crate::checked! {
 }
 
 impl<T: Real> LowPass<T> {
-    /// The time constant \[s\].
-    pub const fn time_constant(&self) -> T {
-        self.time_constant
-    }
-
     /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
     /// A bad sample (not finite, or a `dt` that is not positive and finite) leaves the state

@@ -40,7 +40,7 @@ crate::checked::stored! {
     /// * **Bad samples** (a position that is not finite, or a `dt` that is not positive and finite):
     ///   the last good motion is held. The status states the fault.
     /// * **Gaps**: the difference spans the time since the last good sample, including missing and bad
-    ///   samples. After more than [`longest_gap`](Self::longest_gap) the rates restart at zero. After a
+    ///   samples. After more than the [longest gap](Self::with_longest_gap) the rates restart at zero. After a
     ///   `dt` that was negative or not finite the time is unknown. The next good sample then only sets
     ///   the position, and the rates are held.
     /// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
@@ -211,16 +211,6 @@ impl<T: Real> Rates<T> {
     /// acceleration.
     pub fn time_constant(&self) -> T {
         self.time_constant
-    }
-
-    /// The longest time between two good samples that the rates bridge \[s\].
-    pub fn longest_gap(&self) -> T {
-        self.longest_gap
-    }
-
-    /// The period of the positions \[channel unit\], if they wrap.
-    pub fn period(&self) -> Option<T> {
-        self.period
     }
 
     /// The motion at a `position` \[channel unit\] measured `dt` \[s\] after the last call.

@@ -159,7 +159,6 @@ fn the_papers_gains_are_those_of_its_table_1() {
     assert_eq!(gains(Pid::paper_pi()), (30.0, 18.0, 0.0));
     assert_eq!(gains(Pid::paper_pid()), (30.0, 18.0, 2.0));
     assert_eq!(gains(Pid::paper_piv()), (30.0, 18.0, 10.0));
-    assert_eq!(gains(Pid::matched_pi()), (30.0, 320.0, 0.0));
     for pid in [Pid::<f32>::paper_pi(), Pid::paper_pid(), Pid::paper_piv()] {
         assert_eq!(Pid::try_new(*pid.settings()), Ok(pid));
     }

@@ -55,7 +55,9 @@ impl Laws {
             piv: pid("piv", setup.piv.over_piv(Pid::paper_piv().settings()))?,
             matched_pi: pid(
                 "matched_pi",
-                setup.matched_pi.over(Pid::matched_pi().settings()),
+                // The effective integral gain of the paper's adaptive law: without this PI, the
+                // effect of a higher gain would count as adaptation.
+                setup.matched_pi.over(&PidSettings::unlimited(30.0, 320.0)),
             )?,
             observed_pi: pid(
                 "observer",

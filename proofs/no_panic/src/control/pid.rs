@@ -33,7 +33,6 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_pid_paper_pi, Pid::<T>::paper_pi());
     never_panics!(control_pid_paper_pid, Pid::<T>::paper_pid());
     never_panics!(control_pid_paper_piv, Pid::<T>::paper_piv());
-    never_panics!(control_pid_matched_pi, Pid::<T>::matched_pi());
 
     let settings = black_box(PidSettings::<T>::unlimited(any(), any()));
     never_panics!(control_pid_settings_try_new, Pid::try_new(settings));
