@@ -339,7 +339,7 @@ macro_rules! model {
                     );
                     assert_eq!(result == bowden_result::Ok, expected.status == Status::Good);
                     assert_eq!(out.command.to_bits(), expected.command.to_bits(), "{k}");
-                    assert_eq!(out.eta.to_bits(), state.eta().to_bits(), "{k}");
+                    assert_eq!(out.eta.to_bits(), inverse_state.eta().to_bits(), "{k}");
                     assert_eq!(out.effects.to_bits(), expected.effects.to_bits(), "{k}");
                 }
                 assert!(held > 100, "{held}");
