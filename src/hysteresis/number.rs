@@ -95,38 +95,28 @@ impl<T: Real> Dual<T> {
     }
 }
 
-impl<T: Real> Add for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        self.join(other, self.value + other.value, T::one(), T::one())
-    }
+/// The operators of two numbers: the value, and its slopes by each.
+macro_rules! operators {
+    ($($operator:ident::$name:ident($a:ident, $b:ident) = $value:expr;)+) => {$(
+        impl<T: Real> $operator for Dual<T> {
+            type Output = Self;
+            #[inline]
+            fn $name(self, other: Self) -> Self {
+                let ($a, $b) = (self.value, other.value);
+                let (value, by_self, by_other) = $value;
+                self.join(other, value, by_self, by_other)
+            }
+        }
+    )+};
 }
-
-impl<T: Real> Sub for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self.join(other, self.value - other.value, T::one(), -T::one())
-    }
-}
-
-impl<T: Real> Mul for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        self.join(other, self.value * other.value, other.value, self.value)
-    }
-}
-
-impl<T: Real> Div for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        let inverse = T::one() / other.value;
-        self.join(other, value, inverse, -value * inverse)
-    }
+operators! {
+    Add::add(a, b) = (a + b, T::one(), T::one());
+    Sub::sub(a, b) = (a - b, T::one(), -T::one());
+    Mul::mul(a, b) = (a * b, b, a);
+    Div::div(a, b) = {
+        let (value, inverse) = (a / b, T::one() / b);
+        (value, inverse, -value * inverse)
+    };
 }
 
 impl<T: Real> Neg for Dual<T> {

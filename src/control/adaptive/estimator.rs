@@ -177,33 +177,25 @@ impl<T: Real> Default for Estimator<T> {
     }
 }
 
-/// Names of an estimator's fields in an error.
-pub(super) struct Names {
-    pub(super) initial: &'static str,
-    pub(super) low: &'static str,
-    pub(super) high: &'static str,
-    pub(super) gain: &'static str,
-    pub(super) leakage: &'static str,
-    pub(super) bound: &'static str,
-    pub(super) prior: &'static str,
-    pub(super) fixed: &'static str,
-}
+/// Names of an estimator's fields in an error: initial, low, high, gain, leakage, its bound, prior,
+/// and the condition on an estimate that adapts.
+pub(super) type Names = [&'static str; 8];
 
 macro_rules! names {
     ($of:literal) => {
-        Names {
-            initial: concat!($of, ".initial"),
-            low: concat!($of, ".low"),
-            high: concat!($of, ".high"),
-            gain: concat!($of, ".gain"),
-            leakage: concat!($of, ".leakage"),
-            bound: concat!($of, ".leakage.bound"),
-            prior: concat!($of, ".prior"),
-            fixed: concat!(
+        [
+            concat!($of, ".initial"),
+            concat!($of, ".low"),
+            concat!($of, ".high"),
+            concat!($of, ".gain"),
+            concat!($of, ".leakage"),
+            concat!($of, ".leakage.bound"),
+            concat!($of, ".prior"),
+            concat!(
                 $of,
                 ": an estimate that adapts has a box of more than one point"
             ),
-        }
+        ]
     };
 }
 

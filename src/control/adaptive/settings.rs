@@ -129,23 +129,24 @@ crate::checked! {
     }
 
     fn check_estimator[](it: &Estimator<T>, names: &Names) -> Result<(), Error> {
-        must_be_finite!(it.low, names.low);
-        must_be_finite!(it.high, names.high);
-        must_be_finite!(it.prior, names.prior);
+        let [initial, low, high, gain, leakage, bound_name, prior, fixed] = *names;
+        must_be_finite!(it.low, low);
+        must_be_finite!(it.high, high);
+        must_be_finite!(it.prior, prior);
         if it.low > it.high {
-            return Err(Error::OutOfRange(names.low));
+            return Err(Error::OutOfRange(low));
         }
-        must_be_finite!(it.initial, names.initial);
+        must_be_finite!(it.initial, initial);
         if it.initial < it.low || it.initial > it.high {
-            return Err(Error::OutOfRange(names.initial));
+            return Err(Error::OutOfRange(initial));
         }
-        not_below_zero!(it.gain, names.gain);
+        not_below_zero!(it.gain, gain);
         if it.gain > T::ZERO && it.low == it.high {
-            return Err(Error::Inadmissible(names.fixed));
+            return Err(Error::Inadmissible(fixed));
         }
-        not_below_zero!(it.leakage.rate(), names.leakage);
+        not_below_zero!(it.leakage.rate(), leakage);
         if let Leakage::Switching { bound, .. } = it.leakage {
-            above_zero!(bound, names.bound);
+            above_zero!(bound, bound_name);
         }
         Ok(())
     }
