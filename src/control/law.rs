@@ -10,79 +10,91 @@ use crate::Real;
 
 /// (13): tracking error `e = y - y_r`.
 #[inline]
-pub(crate) fn error<T: Real>(y: T, y_r: T) -> T {
+pub fn error<T: Real>(y: T, y_r: T) -> T {
     y - y_r
 }
 
 /// (17): increment of the accumulated error, `z = ∫ e dt`, over one sample: `h·e`.
 #[inline]
-pub(crate) fn z_increment<T: Real>(h: T, e: T) -> T {
+pub fn z_increment<T: Real>(h: T, e: T) -> T {
     h * e
 }
 
 /// (18): filtered error `s = e + lambda·z`.
 #[inline]
-pub(crate) fn filtered_error<T: Real>(e: T, lambda: T, z: T) -> T {
+pub fn filtered_error<T: Real>(e: T, lambda: T, z: T) -> T {
     e + lambda * z
 }
 
 /// (19): command `u = beta_hat·u_bar`.
 #[inline]
-pub(crate) fn command<T: Real>(beta_hat: T, u_bar: T) -> T {
+pub fn command<T: Real>(beta_hat: T, u_bar: T) -> T {
     beta_hat * u_bar
 }
 
 /// (19) in the first-order form: increment of u, `u' = lambda·way` with `way = beta_hat·u_bar - u`.
 #[inline]
-pub(crate) fn first_order_increment<T: Real>(h: T, lambda: T, way: T) -> T {
+pub fn first_order_increment<T: Real>(h: T, lambda: T, way: T) -> T {
     h * lambda * way
+}
+
+/// (20): `alpha·u = u_bar - alpha·beta_error·u_bar` with `beta_error = 1/alpha - beta_hat`.
+#[inline]
+pub fn plant_command<T: Real>(alpha: T, beta_error: T, u_bar: T) -> T {
+    u_bar - alpha * beta_error * u_bar
 }
 
 /// (21): rate of the accumulated error, `z' = e = s - lambda·z`.
 #[inline]
-pub(crate) fn z_rate<T: Real>(s: T, lambda: T, z: T) -> T {
+pub fn z_rate<T: Real>(s: T, lambda: T, z: T) -> T {
     s - lambda * z
+}
+
+/// (22): rate of the filtered error, `s' = e' + lambda·e`.
+#[inline]
+pub fn s_rate<T: Real>(e_rate: T, lambda: T, e: T) -> T {
+    e_rate + lambda * e
 }
 
 /// (23), first part: `-k·s + y_r`.
 #[inline]
-pub(crate) fn proportional<T: Real>(k: T, s: T, y_r: T) -> T {
+pub fn proportional<T: Real>(k: T, s: T, y_r: T) -> T {
     -k * s + y_r
 }
 
 /// (23), with the second part: `-(z + e')/lambda`.
 #[inline]
-pub(crate) fn damped<T: Real>(proportional: T, z: T, e_rate: T, lambda: T) -> T {
+pub fn damped<T: Real>(proportional: T, z: T, e_rate: T, lambda: T) -> T {
     proportional - (e_rate + z) / lambda
 }
 
 /// (23), with the second part, in the first-order form, where `-y_r'` replaces e'.
 #[inline]
-pub(crate) fn first_order_damped<T: Real>(proportional: T, z: T, y_r_rate: T, lambda: T) -> T {
+pub fn first_order_damped<T: Real>(proportional: T, z: T, y_r_rate: T, lambda: T) -> T {
     proportional + (y_r_rate - z) / lambda
 }
 
 /// (23): virtual command `u_bar = damped + theta_hat'x - delta_hat·T(s/epsilon)`.
 #[inline]
-pub(crate) fn virtual_command<T: Real>(damped: T, theta_x: T, delta_hat: T, smooth_sign: T) -> T {
+pub fn virtual_command<T: Real>(damped: T, theta_x: T, delta_hat: T, smooth_sign: T) -> T {
     damped + theta_x - delta_hat * smooth_sign
 }
 
 /// (24), excitation of beta_hat: `v = -lambda·s·u_bar`; `lambda_s` is `lambda·s`.
 #[inline]
-pub(crate) fn beta_excitation<T: Real>(lambda_s: T, u_bar: T) -> T {
+pub fn beta_excitation<T: Real>(lambda_s: T, u_bar: T) -> T {
     -lambda_s * u_bar
 }
 
 /// (25), excitation of delta_hat: `v = lambda·s·T(s/epsilon)`.
 #[inline]
-pub(crate) fn delta_excitation<T: Real>(lambda_s: T, smooth_sign: T) -> T {
+pub fn delta_excitation<T: Real>(lambda_s: T, smooth_sign: T) -> T {
     lambda_s * smooth_sign
 }
 
 /// (26), excitation of theta_hat_i: `v = -lambda·s·x_i`.
 #[inline]
-pub(crate) fn theta_excitation<T: Real>(lambda_s: T, x: T) -> T {
+pub fn theta_excitation<T: Real>(lambda_s: T, x: T) -> T {
     -lambda_s * x
 }
 
@@ -91,21 +103,18 @@ pub(crate) fn theta_excitation<T: Real>(lambda_s: T, x: T) -> T {
 ///
 /// The step is implicit, so the leakage cannot overshoot. The prior is zero in the paper.
 #[inline]
-pub(crate) fn estimate_increment<T: Real>(h: T, gamma: T, v: T, sigma: T, distance: T) -> T {
+pub fn estimate_increment<T: Real>(h: T, gamma: T, v: T, sigma: T, distance: T) -> T {
     h * (gamma * v - sigma * distance) / (T::one() + h * sigma)
 }
 
 /// Smooth sign `T(x)` of (23) and (25) with `x = s/epsilon`: `tanh(x)`, clamped to `[-1, 1]`.
 #[inline(always)]
-pub(crate) fn smooth_sign<T: Real>(x: T) -> T {
+pub fn smooth_sign<T: Real>(x: T) -> T {
     x.confined_tanh()
 }
 
 /// Smooth sign without `tanh`: `x`, clamped to `[-1, 1]`.
 #[inline(always)]
-pub(crate) fn clamped_sign<T: Real>(x: T) -> T {
+pub fn clamped_sign<T: Real>(x: T) -> T {
     clamp(x, -T::one(), T::one())
 }
-
-#[cfg(test)]
-mod tests;

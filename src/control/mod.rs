@@ -28,12 +28,13 @@
 //! | [`IterativeLearning`] | feed-forward learned from the error of earlier cycles | |
 //! | [`Relay`] | relay experiment that measures ultimate gain and period, for PI gains | |
 //!
-//! [`Controller`] is the common interface of the first two rows.
+//! [`Controller`] is the common interface of the first two rows. [`law`] contains the equations of the
+//! adaptive law, one function each.
 
 mod adaptive;
 mod compensator;
 mod controller;
-mod law;
+pub mod law;
 mod learning;
 pub(crate) mod limits;
 mod observer;

@@ -2,16 +2,32 @@
 //!
 //! The names are the paper's; `x` is the input, a displacement in (2) and a torque in (7). With
 //! `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the path p, `dp = rho·|dx|`, the equation
-//! is `dzeta/dp = f(zeta)`, which does not contain time: `eta' = d·rho·|x'|·f(d·eta)` (tested in
+//! is `dzeta/dp = f(zeta)`, which does not contain time. [`eta_rate`] is the equation as published;
+//! [`f`] is the same equation along the path: `eta' = d·rho·|x'|·f(d·eta)` (tested in
 //! `tests/hysteresis/law.rs`). The steps of [`BoucWen`](super::BoucWen) integrate `f` through
 //! `loading` and `unloading`.
 
 use super::number::Number;
 use crate::Real;
 
+/// (2), (7): `eta' = rho·(x' - sigma·|x'|·|eta|^(n-1)·eta + (sigma - 1)·x'·|eta|^n)`.
+///
+/// ```
+/// use bowden::hysteresis::law::eta_rate;
+/// // From eta = 0, the slope is rho; after a reversal at eta = 1, it is 2·sigma·rho.
+/// assert_eq!(eta_rate(0.1, 3.0, 2.0, 1.0, 0.0), 0.1);
+/// assert!((eta_rate(0.1_f64, 3.0, 2.0, -1.0, 1.0) + 0.6).abs() < 1e-12);
+/// ```
+#[inline]
+pub fn eta_rate<T: Real>(rho: T, sigma: T, n: T, x_rate: T, eta: T) -> T {
+    let power = eta.abs().pow(n - T::one()); // |eta|^(n-1)
+    let damping = sigma * x_rate.abs() * power * eta;
+    rho * (x_rate - damping + (sigma - T::one()) * x_rate * power * eta.abs())
+}
+
 /// (2), (7) along the path: `f(zeta)`, where `power` is `|zeta|^n`.
 #[inline]
-pub(super) fn f<T: Real>(zeta: T, c: T, power: T) -> T {
+pub fn f<T: Real>(zeta: T, c: T, power: T) -> T {
     if zeta < T::zero() {
         unloading(c * power)
     } else {

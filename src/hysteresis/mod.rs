@@ -10,7 +10,7 @@
 //! - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 //! - n ≥ 1: sharpness of the knee, larger is sharper.
 //!
-//! The equation does not contain time. With `d = sgn(x')`, `zeta =
+//! [`law`] implements this equation, which does not contain time. With `d = sgn(x')`, `zeta =
 //! d·eta`, `c = 2·sigma - 1` and the path `p = rho·|dx|` it reads `dzeta/dp = f(zeta)`:
 //!
 //! - loading, `zeta >= 0`: `f = 1 - zeta^n`;
@@ -109,7 +109,7 @@ mod bounded;
 mod closed;
 #[cfg(test)]
 mod garbage;
-mod law;
+pub mod law;
 mod number;
 mod path;
 #[cfg(kani)]

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod boxes;
+mod equations;
 mod forms;
 mod hand_over;
 mod law;

@@ -1,14 +1,8 @@
 //! The state equation as it is printed, and along the path.
 
+use bowden::hysteresis::law::{eta_rate, f};
 use bowden::hysteresis::BoucWen;
 use proptest::prelude::*;
-
-/// (2), (7): `eta' = rho·(x' - sigma·|x'|·|eta|^(n-1)·eta + (sigma - 1)·x'·|eta|^n)`.
-fn eta_rate(rho: f64, sigma: f64, n: f64, x_rate: f64, eta: f64) -> f64 {
-    let power = eta.abs().powf(n - 1.0);
-    let damping = sigma * x_rate.abs() * power * eta;
-    rho * (x_rate - damping + (sigma - 1.0) * x_rate * power * eta.abs())
-}
 
 proptest! {
     /// `eta' = d·rho·|x'|·f(d·eta)`: the path does not contain time.
@@ -17,12 +11,15 @@ proptest! {
         rho in 0.01..1.0, sigma in 0.5..100.0, n in 1.0..10.0,
         x_rate in -100.0..100.0, eta in -1.0..1.0
     ) {
-        let printed = eta_rate(rho, sigma, n, x_rate, eta);
+        let printed: f64 = eta_rate(rho, sigma, n, x_rate, eta);
         let d = f64::signum(x_rate);
-        let along = BoucWen::try_new(rho, sigma, n).unwrap().slope(eta, d) / rho;
+        let power = f64::powf(f64::abs(eta), n);
+        let along = f(d * eta, 2.0 * sigma - 1.0, power);
         // Terms up to 2·sigma·rho·|x'| = 2e4 cancel, at a rounding of 1e-16 and the power's.
         prop_assert!((printed - d * rho * f64::abs(x_rate) * along).abs() < 1e-10);
         prop_assert!((0.0..=2.0 * sigma).contains(&along));
+        let slope = BoucWen::try_new(rho, sigma, n).unwrap().slope(eta, d);
+        prop_assert!((slope - rho * along).abs() < 1e-12 * sigma);
     }
 
     /// A small step is the equation, in both floats and for each method.

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod compensator;
+mod law;
 mod learning;
 mod observer;
 mod pid;
@@ -15,6 +16,7 @@ use std::hint::black_box;
 pub use adaptive::law;
 
 pub fn all<T: Real>() -> Option<()> {
+    law::all::<T>();
     never_panics!(control_limits_try_new, Limits::<T>::try_new(any(), any()));
     never_panics!(control_limits_unlimited, Limits::<T>::unlimited());
     let limits = black_box(Limits::<T>::unlimited());

@@ -40,5 +40,11 @@ pub fn all<T: Real>() -> Option<()> {
     );
     never_panics!(hysteresis_shape_slope, shape.slope(any(), any()));
     never_panics!(hysteresis_shape_step, shape.step(&mut state, any()));
+
+    never_panics!(
+        hysteresis_law_eta_rate,
+        law::eta_rate::<T>(any(), any(), any(), any(), any())
+    );
+    never_panics!(hysteresis_law_f, law::f::<T>(any(), any(), any()));
     Some(())
 }

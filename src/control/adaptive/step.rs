@@ -1,5 +1,5 @@
 //! One step of the law, in the order that the theorems assume; its equations are in
-//! `control/law.rs`.
+//! [`law`].
 
 use super::state::End;
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};

@@ -1,6 +1,7 @@
 //! The equations of the law, one by one: what the paper derives from them holds.
 
-use crate::control::{law, SmoothSign};
+use bowden::control::law;
+use bowden::control::SmoothSign;
 use proptest::prelude::*;
 
 /// A plant (11) with two regressors, the law's gains and one instant of the closed loop.
@@ -49,11 +50,6 @@ fn instants() -> impl Strategy<Value = Instant> {
     )
 }
 
-/// (20): `alpha·u = u_bar - alpha·beta_error·u_bar` with `beta_error = 1/alpha - beta_hat`.
-fn plant_command(alpha: f64, beta_error: f64, u_bar: f64) -> f64 {
-    u_bar - alpha * beta_error * u_bar
-}
-
 /// V of (27), its rate by (20)-(26), and the right side of (34).
 fn lyapunov(at: &Instant) -> (f64, f64, f64) {
     let ((k, lambda, epsilon), [s, z, e_rate, y_r]) = (at.gains, at.signals);
@@ -65,7 +61,7 @@ fn lyapunov(at: &Instant) -> (f64, f64, f64) {
     let sign = law::smooth_sign(s / epsilon);
     let damped = law::damped(law::proportional(k, s, y_r), z, e_rate, lambda);
     let u_bar = law::virtual_command(damped, dot(theta_hat), delta_hat, sign);
-    let y = plant_command(at.alpha, truth[0] - beta_hat, u_bar) - dot(at.theta) - disturbance;
+    let y = law::plant_command(at.alpha, truth[0] - beta_hat, u_bar) - dot(at.theta) - disturbance;
     let excitation = [
         law::beta_excitation(lambda * s, u_bar),
         law::delta_excitation(lambda * s, sign),
@@ -75,7 +71,7 @@ fn lyapunov(at: &Instant) -> (f64, f64, f64) {
 
     let mut v = 0.5 * (s * s + z * z);
     let e = law::error(y, y_r);
-    let mut rate = s * (e_rate + lambda * e) + z * law::z_rate(s, lambda, z);
+    let mut rate = s * law::s_rate(e_rate, lambda, e) + z * law::z_rate(s, lambda, z);
     let mut theta = (2.0 * lambda).min(2.0 * k * lambda);
     let residue = SmoothSign::Tanh.residue::<f64>();
     let mut phi = residue * epsilon * lambda * delta;
@@ -109,7 +105,7 @@ proptest! {
         alpha in 0.1_f64..3.0, beta_hat in 0.0..5.0, u_bar in -100.0..100.0
     ) {
         let sent = alpha * law::command(beta_hat, u_bar);
-        let seen = plant_command(alpha, 1.0 / alpha - beta_hat, u_bar);
+        let seen = law::plant_command(alpha, 1.0 / alpha - beta_hat, u_bar);
         // Rounding of numbers up to 1500.
         prop_assert!((sent - seen).abs() < 1e-11);
     }
