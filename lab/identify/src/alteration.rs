@@ -1,13 +1,9 @@
-//! Records that may have been logged differently: alterations that are undone in turn, and the
-//! condition that each must satisfy.
+//! Records that may have been logged differently: alterations that are undone in turn, and the bar
+//! that each must pass: an alteration is suspected if undoing it leaves at most half of the RMS error
+//! (of a record that is identified, beyond the noise).
 
 use crate::record::{Column, Record};
 use serde::Serialize;
-
-/// An alteration is suspected if undoing it leaves at most this share of the RMS error beyond the
-/// noise. A choice, and the only one: it holds for every alteration, of records that are identified
-/// or validated.
-pub(crate) const HALF: f64 = 0.5;
 
 /// RMS error beyond the noise floor.
 pub(crate) fn beyond_noise(rmse: f64, floor: f64) -> f64 {

@@ -4,6 +4,7 @@
 //!
 //! | room | what happens there |
 //! |---|---|
+//! | [`scale`] | the marks that all rooms share: what is a trace, a part, a half, noise |
 //! | `algebra` | the linear algebra of all others: spans, systems, directions |
 //! | [`record`] | reading and checking of a file, and its defects: the crate `bowden-record` |
 //! | [`alteration`] | how a record may have been logged differently |
@@ -34,6 +35,7 @@ pub mod foresight;
 pub mod ledger;
 pub mod model;
 pub mod problem;
+pub mod scale;
 pub mod score;
 pub mod search;
 

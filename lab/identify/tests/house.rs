@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// From the ground up, in the order in which data walk through them.
-const FLOORS: [&str; 13] = [
+const FLOORS: [&str; 14] = [
+    "scale",
     "algebra",
     "alteration",
     "problem",
@@ -52,22 +53,22 @@ const LONGEST: usize = 500;
 const CONSTANTS: [(&str, usize); 18] = [
     ("cli", 8),
     ("identify/algebra", 1),
-    ("identify/alteration", 1),
-    ("identify/check", 14),
-    ("identify/conclude", 27),
-    ("identify/export", 13),
+    ("identify/check", 6),
+    ("identify/conclude", 5),
+    ("identify/export", 9),
     ("identify/facts", 1),
-    ("identify/fit", 9),
-    ("identify/foresight", 12),
-    ("identify/model", 12),
-    ("identify/problem", 28),
-    ("identify/score", 30),
-    ("identify/search", 51),
-    ("page", 3),
-    ("record", 33),
-    ("rig", 3),
-    ("synth", 6),
-    ("trials", 25),
+    ("identify/fit", 6),
+    ("identify/foresight", 6),
+    ("identify/model", 8),
+    ("identify/problem", 17),
+    ("identify/scale", 9),
+    ("identify/score", 15),
+    ("identify/search", 30),
+    ("page", 5),
+    ("record", 99),
+    ("rig", 6),
+    ("synth", 10),
+    ("trials", 50),
 ];
 
 /// The folder of a package of the lab.

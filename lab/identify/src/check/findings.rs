@@ -1,13 +1,10 @@
 //! The findings of a validation, the most important first.
 
-use super::{Check, Verdict, FAINT, HOLDS};
+use super::{Check, Verdict, HOLDS};
 use crate::conclude::files_apart::is_far;
 use crate::conclude::finding::Finding;
 use crate::conclude::verdict::POOR;
-
-/// The input contributes little if it contributes less than this share of the output's standard
-/// deviation. A choice.
-const HARDLY: f64 = 0.1;
+use crate::scale::PART;
 
 impl Check {
     /// The findings.
@@ -101,11 +98,11 @@ impl Check {
         }
         let own = self.reference().filter(|own| *own >= POOR);
         all.extend(own.map(|own| Finding::ModelInexact { own }));
-        if self.is_noise() && self.rmse > FAINT * self.deviation {
+        if self.is_noise() && self.rmse > POOR * self.deviation {
             all.push(Finding::OutputAtNoise);
         }
         let made = self.made_of_input.map(|made| self.share(made));
-        let made = made.filter(|made| *made < HARDLY);
+        let made = made.filter(|made| *made < PART);
         all.extend(made.map(|share| Finding::InputContributesLittle {
             input: self.data.input.name.clone(),
             share,

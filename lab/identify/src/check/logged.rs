@@ -10,9 +10,10 @@ use super::given::{Given, Seen};
 use super::play::{rms, Played};
 use super::Check;
 use crate::algebra::line;
-use crate::alteration::{Alteration, Suspicion, HALF};
+use crate::alteration::{Alteration, Suspicion};
 use crate::problem::Prepared;
 use crate::record::{is_same_unit, Column, Record};
+use crate::scale::{HALF, PART, QUARTER};
 
 /// Factors between units that a header does not state: milli and kilo, degrees instead of radians,
 /// inches instead of millimetres, and the inverse factors.
@@ -24,14 +25,8 @@ const FACTORS: [f64; 6] = [
     25.4,
     1.0 / 25.4,
 ];
-/// A factor is tried if it brings the range of the column to within this multiple of the range of
-/// the model's record. A choice.
-const ALIKE: f64 = 4.0;
-/// Longest time by which the output may come late \[s\], and the share of the record. A choice.
-const LATEST: (f64, f64) = (1.0, 0.1);
-/// Least number of the record's rows by which an output is called late. A choice: less is no
-/// logger's delay, but an error of the model that resembles one.
-const LEAST_LATE: f64 = 0.5;
+/// Longest time by which the output may come late \[s\], if that is a part of the record. A choice.
+const LATEST: f64 = 1.0;
 
 /// The alterations of a record's columns that may be undone.
 fn alterations(record: &Record, given: &Given) -> Vec<Alteration> {
@@ -67,7 +62,8 @@ fn alterations(record: &Record, given: &Given) -> Vec<Alteration> {
     all
 }
 
-/// Whether the range of a column, divided by a factor, is about that of the model's own record.
+/// Whether the range of a column, divided by a factor, is about that of the model's own record: between a
+/// quarter and four times.
 fn is_alike(column: &Column, seen: &Seen, factor: f64) -> bool {
     let Some([low, high]) = seen.position else {
         return false;
@@ -76,7 +72,7 @@ fn is_alike(column: &Column, seen: &Seen, factor: f64) -> bool {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let ratio = (most - least) / factor / (high - low);
-    (1.0 / ALIKE..=ALIKE).contains(&ratio)
+    (QUARTER..=1.0 / QUARTER).contains(&ratio)
 }
 
 /// Rms error of a prediction on the rows that count, with gain and offset refitted; `None` where
@@ -107,8 +103,8 @@ fn between(values: &[f64], place: f64) -> f64 {
 /// By how many rows the output comes late, and the error with that undone.
 fn late(data: &Prepared, prediction: &[f64]) -> Option<(f64, f64)> {
     let row = data.dt * data.stride as f64;
-    let most = (LATEST.0 / row)
-        .min(LATEST.1 * data.split.fit.len() as f64)
+    let most = (LATEST / row)
+        .min(PART * data.split.fit.len() as f64)
         .floor();
     let of = |rows: f64| {
         let places = (0..prediction.len()).map(|i| between(prediction, i as f64 - rows));
@@ -147,7 +143,8 @@ impl Check {
         let late = || {
             let (rows, rms) = late(&self.data, &self.model.prediction)?;
             let seconds = rows * self.data.dt * self.data.stride as f64;
-            let shows = seconds.abs() * self.data.rate >= LEAST_LATE;
+            // Less than half a sample is an error of the model that resembles a delay.
+            let shows = seconds.abs() * self.data.rate >= HALF;
             let after = holds(&self.data, self.deviation, rms).filter(|_| shows)?;
             Some((after, Alteration::Late { seconds }))
         };

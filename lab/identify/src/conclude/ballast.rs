@@ -9,11 +9,8 @@ use crate::model::declared::declared;
 use crate::model::structure::{FitTerm, Structure};
 use crate::model::{Table, Variable};
 use crate::problem::Prepared;
+use crate::scale::TRACE;
 use bowden::model::Source;
-
-/// A hysteresis is redundant if spring and offset imitate all but this share of its part. A choice:
-/// a loop that is visible in a plot has more.
-const NOT_IMITATED: f64 = 0.01;
 
 /// The part of a hysteresis, and how much of it spring and offset cannot imitate.
 pub(super) struct Part {
@@ -49,12 +46,12 @@ impl Part {
     /// Whether the part is larger than the output, and spring and offset cancel nearly all of it.
     /// The gains of a smaller part are harmless.
     pub(super) fn is_cancelled(&self) -> bool {
-        self.size > 1.0 && self.own < NOT_IMITATED * self.size
+        self.size > 1.0 && self.own < TRACE * self.size
     }
 
     /// Whether almost none of the output is due to the hysteresis alone.
     pub(super) fn is_ballast(&self) -> bool {
-        self.is_cancelled() && self.own < NOT_IMITATED
+        self.is_cancelled() && self.own < TRACE
     }
 }
 

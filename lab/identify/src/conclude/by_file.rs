@@ -1,8 +1,8 @@
 //! Errors of a joint model by file.
 
-use super::errors::RISES;
 use crate::fit::Solution;
 use crate::problem::{Piece, Prepared};
+use crate::scale::is_raised;
 use serde::Serialize;
 
 /// Errors on one file; `None` for a segment that contains no part of the file.
@@ -111,7 +111,7 @@ pub fn worse(data: &Prepared, declared: &Solution, last: &Solution) -> Vec<Worse
         .iter()
         .zip(&after)
         .filter_map(|(b, a)| Some((b, judged(b)?, judged(a)?)))
-        .filter(|(_, before, after)| *after > RISES * before)
+        .filter(|(_, before, after)| is_raised(*after, *before))
         .map(|(file, before, after)| Worse {
             path: file.path.clone(),
             before,

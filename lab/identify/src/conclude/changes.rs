@@ -1,7 +1,5 @@
 //! Findings that only the held-out segment shows: a changed rig, or clocks that differ.
 
-use super::errors::RISES;
-use super::files_apart::LINE_LEAVES;
 use super::final_fit::FinalFit;
 use super::finding::Finding;
 use crate::algebra::line;
@@ -9,23 +7,15 @@ use crate::fit::{Segments, Solution};
 use crate::model::structure::{FitTerm, Role};
 use crate::problem::Prepared;
 use crate::record::{is_velocity, DefectKind, Mode};
+use crate::scale::{is_raised, NOISE, PART, QUARTER, TRACE, TWENTIETH};
 use crate::score::ranges::{beyond, range, POSITION};
-use crate::search::policy::AT_FLOOR;
 use bowden::model::Source;
-
-/// A held-out error of this share of the output's standard deviation, and of this multiple of
-/// the error on the fit segment, means that the rig differs from the one that was fitted. Both are
-/// choices: of the ten measured rows none has more than 8 % or 2.2 times.
-const OTHER_RIG: (f64, f64) = (0.1, 4.0);
-/// The change begins where this share of the held-out squared error lies behind it ...
-const BEFORE: f64 = 0.01;
-/// ... and is reported if this time is later than this share of the held-out segment.
-const LATE: f64 = 0.05;
 
 /// The positions of the held-out segment beyond those of the fit segment, if the model's error is
 /// larger there.
 pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Vec<Finding> {
-    if done.rmse.held_out <= f64::max(RISES * done.rmse.fit, AT_FLOOR * data.noise_floor) {
+    let (fit, held_out) = (done.rmse.fit, done.rmse.held_out);
+    if !is_raised(held_out, fit) || held_out <= NOISE * data.noise_floor {
         return Vec::new();
     }
     let split = &data.split;
@@ -52,15 +42,16 @@ pub(super) fn extrapolates(data: &Prepared, done: &FinalFit) -> Vec<Finding> {
 const STANDS_FOR: (f64, f64) = (0.9, 0.3);
 
 /// The errors on the fit and on the held-out segment, as shares of the output's standard deviation
-/// on each, if the held-out error means another rig.
+/// on each, if the held-out error means another rig: it is a part of the output, and the fit error is
+/// less than a quarter of it. A choice: of the ten measured rows none has more than 8 % or 2.2 times.
 pub(super) fn other_rig(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
     let error = done.rmse.normalised(data, &data.target);
-    let (least, times) = OTHER_RIG;
-    (error.held_out > least && error.held_out > times * error.fit)
+    (error.held_out > PART && QUARTER * error.held_out > error.fit)
         .then_some((error.fit, error.held_out))
 }
 
-/// The time \[s\] after which the held-out error is large, if it is within the held-out segment.
+/// The time \[s\] after which the held-out error is large, if it is within the held-out segment: only a
+/// trace of the squared error lies before it.
 pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
     let rows = &data.split.held_out;
     let square = |row: &usize| done.solution.residual[*row].powi(2);
@@ -68,9 +59,9 @@ pub(super) fn begins(data: &Prepared, done: &FinalFit) -> Option<f64> {
     let mut sum = 0.0;
     let first = rows.iter().position(|row| {
         sum += square(row);
-        sum >= BEFORE * all
+        sum >= TRACE * all
     })?;
-    (first as f64 > LATE * rows.len() as f64).then(|| data.moment(rows[first]))
+    (first as f64 > TWENTIETH * rows.len() as f64).then(|| data.moment(rows[first]))
 }
 
 /// A creep whose initial state lies on a bound of its range: the relaxation does not come from a
@@ -106,7 +97,7 @@ pub(super) fn other_line(data: &Prepared, done: &FinalFit) -> Option<Finding> {
     let left: Vec<f64> = pairs.map(|(y, x)| y - gain * x - offset).collect();
     let share = |rmse: Segments| rmse.normalised(data, target).held_out;
     let (error, now) = (share(Segments::of(data, &left)), share(done.rmse));
-    if error > LINE_LEAVES * now {
+    if error > QUARTER * now {
         let structure = &done.solution.structure;
         let may_help = structure.hysteresis && structure.own_gains == 0;
         return may_help.then_some(Finding::HeldOutFileDiffers);
@@ -133,10 +124,6 @@ pub(super) fn stands_for_output<'a>(
     (error < nearly_all && share > most).then(|| data.channels[channel].name.as_str())
 }
 
-/// A transmission whose part is below this share of the output's standard deviation is taken to
-/// transmit nothing. A choice.
-const TRANSMITS: f64 = 0.05;
-
 /// The channel that gives nearly all of the output in a model that does not read its input.
 pub(super) fn made_without_input<'a>(data: &'a Prepared, done: &Solution) -> Option<&'a str> {
     if !done.structure.hysteresis || done.structure.own_gains > 0 {
@@ -146,7 +133,7 @@ pub(super) fn made_without_input<'a>(data: &'a Prepared, done: &Solution) -> Opt
     let part = |row: usize| gains[0] * columns[0][row] + gains[1] * columns[1][row];
     let part: Vec<f64> = (0..data.target.len()).map(part).collect();
     let spread = |signal: &[f64]| Segments::deviation(data, signal).held_out;
-    let transmits = spread(&part) >= TRANSMITS * spread(&data.target);
+    let transmits = spread(&part) >= TWENTIETH * spread(&data.target);
     let (share, channel) = made_of_channel(data, done)?;
     (!transmits && share > STANDS_FOR.0).then(|| data.channels[channel].name.as_str())
 }
@@ -184,7 +171,7 @@ pub(super) fn velocity(data: &Prepared) -> Option<Finding> {
 
 /// Motion of the input that was not measured, if the residual exceeds the noise.
 pub(super) fn unseen_motion(data: &Prepared, done: &FinalFit) -> Option<Finding> {
-    let is_left = data.noise_floor > 0.0 && done.rmse.fit > AT_FLOOR * data.noise_floor;
+    let is_left = data.noise_floor > 0.0 && done.rmse.fit > NOISE * data.noise_floor;
     let is = is_left && done.solution.structure.hysteresis && has_unseen_motion(data);
     is.then(|| Finding::MotionUnseen {
         input: data.input.name.clone(),

@@ -5,11 +5,7 @@ use super::finding::Finding;
 use crate::fit::Segments;
 use crate::ledger::{Ledger, Round};
 use crate::problem::Prepared;
-use crate::search::policy::AT_FLOOR;
-
-/// A held-out error counts as raised if it exceeds the previous one by more than this factor: a
-/// difference of less than a twentieth is not visible in two digits.
-pub const RISES: f64 = 1.05;
+use crate::scale::{is_raised, quantile, LEVEL_OF_ONE, NOISE, TRACE};
 
 /// A model whose error is this share of the output's standard deviation is poor. A choice.
 pub const POOR: f64 = 0.2;
@@ -26,7 +22,7 @@ pub fn held_out_ratio(ledger: &Ledger, done: &FinalFit) -> f64 {
 pub(super) fn is_worse(ledger: &Ledger, done: &FinalFit) -> bool {
     let is_another =
         !ledger.rounds.is_empty() || ledger.unknown.is_some() || done.without_hysteresis.is_some();
-    is_another && held_out_ratio(ledger, done) > RISES
+    is_another && is_raised(held_out_ratio(ledger, done), 1.0)
 }
 
 /// Whether the mean of the held-out output would predict it better than the model does.
@@ -51,7 +47,7 @@ pub(super) fn poor(data: &Prepared, done: &FinalFit) -> Option<Finding> {
 #[must_use]
 pub fn raises(round: &Round) -> bool {
     // A hundredth is less than the last digit that is printed.
-    round.after.held_out > 1.01 * round.before.held_out
+    round.after.held_out > (1.0 + TRACE) * round.before.held_out
 }
 
 /// Number of leading rounds that lower the held-out error before one raises it.
@@ -69,18 +65,14 @@ pub(super) fn floors(data: &Prepared, done: &FinalFit) -> Option<(f64, f64)> {
     are_known.then(|| (done.rmse.fit / fit, done.rmse.held_out / held_out))
 }
 
-/// For pure noise, the RMS over a held-out segment exceeds this many of its standard deviations in
-/// one record of twenty.
-const SCATTER: f64 = 1.645;
-
 /// Whether the errors, in multiples of the noise floor, are noise. Nothing was fitted to the
 /// held-out part, and it is short: the rms over `n` independent values of noise has a relative
 /// standard deviation of `1/sqrt(2n)`.
 pub(super) fn is_noise(data: &Prepared, (fit, held_out): (f64, f64)) -> bool {
     let seconds = data.split.held_out.len() as f64 * data.dt * data.stride as f64;
     let independent = (2.0 * data.cutoff * seconds).max(1.0);
-    let scatter = SCATTER / (2.0 * independent).sqrt();
-    fit <= AT_FLOOR && held_out <= AT_FLOOR * (1.0 + scatter)
+    let scatter = quantile(LEVEL_OF_ONE) / (2.0 * independent).sqrt();
+    fit <= NOISE && held_out <= NOISE * (1.0 + scatter)
 }
 
 /// An error as a share of the output's standard deviation, "2.23 %".

@@ -5,11 +5,11 @@ use crate::model::effects::shown_by;
 use crate::model::structure::{Role, TermId};
 use crate::model::turns;
 use crate::problem::{Piece, Prepared};
-use crate::score::ranges::BEYOND;
+use crate::scale::TWENTIETH;
 
 /// Number of reversals of the input on the fit segment, by more than a twentieth of its range.
 fn reversals(data: &Prepared) -> usize {
-    let back = BEYOND * 2.0 * data.input.reach;
+    let back = TWENTIETH * 2.0 * data.input.reach;
     let of = |piece: &Piece| match piece.rows_of(&data.split.fit) {
         [first, .., last] => turns(
             &data.input,

@@ -5,23 +5,11 @@ use super::by_file::nrmse_by_file;
 use super::final_fit::FinalFit;
 use super::finding::Finding;
 use crate::algebra::line;
-use crate::alteration::HALF;
 use crate::fit::{fit, Segments, Solution};
 use crate::ledger::{FileApart, Ledger, RigsApart};
 use crate::model::structure::Structure;
 use crate::problem::{Piece, Prepared};
-
-/// The gains of another file describe a file if its error with them is at most this share of its
-/// output's standard deviation ...
-const SAME_ERROR: f64 = 0.1;
-/// ... and with an additional gain and offset, if its error is then at most this share of that
-/// error ...
-pub(super) const LINE_LEAVES: f64 = 0.25;
-/// ... and of its standard deviation: a file that the model does not describe at all has no gain.
-/// All three are choices.
-const LINE_ERROR: f64 = 0.5;
-/// Gains that differ by less than this count as equal. A choice: sensors are calibrated to that.
-const SAME_GAIN: f64 = 0.05;
+use crate::scale::{HALF, PART, QUARTER, TRACE, TWENTIETH};
 
 /// The baseline model with separate gains for each file; `None` without hysteresis.
 pub(crate) fn with_own_gains(data: &Prepared, declared: &Solution) -> Option<Solution> {
@@ -129,7 +117,7 @@ fn files_apart(data: &Prepared, own: &Solution) -> Vec<FileApart> {
         (same, apart)
     };
     // The gains of a dead sensor do not even describe its own file.
-    let known = fitted.iter().filter(|(_, error)| *error <= LINE_ERROR);
+    let known = fitted.iter().filter(|(_, error)| *error <= HALF);
     let all = known.map(|(one, _)| with_gains_of(*one));
     // Of equals the first one: the earlier file is the one that others are compared with.
     let best = all.reduce(|best, next| {
@@ -142,7 +130,8 @@ fn files_apart(data: &Prepared, own: &Solution) -> Vec<FileApart> {
     best.map_or_else(Vec::new, |(_, apart)| apart)
 }
 
-/// How the output of a file relates to the prediction with the gains of another file.
+/// How the output of a file relates to the prediction with the gains of another file. A file that the
+/// model does not describe at all has no gain.
 fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
     let rows = data.pieces[file].rows_of(&data.split.fit);
     let shared = own.structure.base()..own.gains.len();
@@ -167,11 +156,11 @@ fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
         rms(&|x, y| y - x) / deviation,
         rms(&|x, y| y - gain * x - offset) / deviation,
     );
-    if before <= SAME_ERROR {
+    if before <= PART {
         return Beside::Same;
     }
-    let is_line = after <= LINE_LEAVES * before && after <= LINE_ERROR;
-    match (is_line, (gain - 1.0).abs() <= SAME_GAIN) {
+    let is_line = after <= QUARTER * before && after <= HALF;
+    match (is_line, (gain - 1.0).abs() <= TWENTIETH) {
         (true, true) => Beside::Same,
         (true, false) => Beside::Apart(FileApart {
             path: data.pieces[file].path.clone(),
@@ -185,17 +174,13 @@ fn beside(data: &Prepared, own: &Solution, file: usize, than: usize) -> Beside {
     }
 }
 
-/// A preload step within this distance of the beginning of a file counts as its beginning, as a
-/// share of the file's length. A choice.
-const AT_THE_BEGINNING: f64 = 0.01;
-
 /// A preload step at the beginning of a file.
 pub(super) fn another_zero(data: &Prepared, done: &Solution) -> Option<Finding> {
     let steps = done.structure.terms.iter().filter(|t| t.has_moment());
     let moments: Vec<f64> = steps.filter_map(|t| t.effect.shape(0)).collect();
     let length = |piece: &Piece| piece.work.len() as f64 * data.dt;
     let begins = |piece: &&Piece| {
-        let near = AT_THE_BEGINNING * length(piece);
+        let near = TRACE * length(piece);
         moments.iter().any(|t_s| (t_s - piece.since).abs() <= near)
     };
     let piece = data.pieces.iter().skip(1).find(begins)?;

@@ -11,7 +11,7 @@ use crate::fit::{refit, Segments, Solution};
 use crate::ledger::{Ledger, Round};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
-use crate::search::policy::LEAST;
+use crate::scale::TWENTIETH;
 
 /// The model that is delivered.
 #[derive(Debug, Clone)]
@@ -46,7 +46,7 @@ impl FinalFit {
         }
         let solution = without_hysteresis(&self.data, &self.solution)?;
         let gained = (solution.sse(&self.data) / self.solution.sse(&self.data)).ln();
-        (gained < LEAST).then(|| Self {
+        (gained < TWENTIETH).then(|| Self {
             rmse: Segments::of(data, &solution.residual),
             solution,
             without_hysteresis: Some(self.rmse.held_out),

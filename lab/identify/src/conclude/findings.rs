@@ -23,9 +23,9 @@ use crate::ledger::Ledger;
 use crate::model::catalogue::Candidate;
 use crate::problem::Prepared;
 use crate::record::Mode;
+use crate::scale::NOISE;
 use crate::score::explains::{deviations, segments_differ};
 use crate::score::whiteness::is_white;
-use crate::search::policy::AT_FLOOR;
 use bowden::model::Source;
 
 /// The findings on a run with this verdict, besides the missing mechanisms.
@@ -128,7 +128,7 @@ fn size(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<Finding> {
 
 fn above_noise(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Finding {
     match floors(data, done) {
-        Some((fit, held_out)) if fit <= AT_FLOOR => Finding::HeldOutAboveNoise { held_out },
+        Some((fit, held_out)) if fit <= NOISE => Finding::HeldOutAboveNoise { held_out },
         floors => Finding::ResidualAboveNoise {
             floors: floors.map(|(fit, held_out)| [fit, held_out]),
             is_white: Some(is_white(data, ledger.last())),

@@ -16,6 +16,7 @@ use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::units::Unit;
 use crate::problem::{Prepared, Stretch};
 use crate::record::Mode;
+use crate::scale::{HALF, PART};
 use crate::score::blocks::{blocks, BLOCKS};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -52,13 +53,6 @@ pub struct Refusal {
     /// The motion that would identify it.
     pub excitation: String,
 }
-
-/// Relative half-width above which a shape counts as not identified: its interval
-/// spans a factor of three.
-const SHAPE_WIDTH: f64 = 0.5;
-
-/// Correlation of two estimates from which on they are reported as correlated.
-const WITH: f64 = 0.9;
 
 struct Entry<'a> {
     name: String,
@@ -375,7 +369,7 @@ fn half_widths(data: &Prepared, solution: &Solution, columns: &[&Stretch]) -> Ve
 /// Why a parameter is not identified.
 fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refusal {
     let with = partner
-        .filter(|(_, correlation)| *correlation >= WITH)
+        .filter(|(_, correlation)| *correlation >= 1.0 - PART)
         .map(|(name, _)| format!("correlated with {name}"));
     let reason = match (entry.refused.clone(), with) {
         (Some(reason), _) => reason,
@@ -416,7 +410,7 @@ pub fn parameters(data: &Prepared, solution: &Solution) -> Vec<Parameter> {
         .map(|(entry, (width, partner))| {
             let value = entry.sign * entry.value;
             let most = match entry.shape {
-                true => SHAPE_WIDTH * value.abs(),
+                true => HALF * value.abs(),
                 false => f64::INFINITY,
             };
             let too_wide = width.filter(|w| *w > most).map(|w| w / most);

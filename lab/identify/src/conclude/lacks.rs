@@ -1,14 +1,13 @@
 //! The first sentence: what the baseline model lacks, and how the added terms change the error.
 
-use super::errors::{
-    before_after, floors, held_out_ratio, is_noise, missed, names, percent, RISES,
-};
+use super::errors::{before_after, floors, held_out_ratio, is_noise, missed, names, percent};
 use super::final_fit::FinalFit;
 use super::mechanisms::{lacking, mechanisms, Complete};
 use super::words::from_to;
 use crate::fit::Segments;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
+use crate::scale::is_raised;
 
 /// The effect of the added terms on the held-out error.
 pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
@@ -27,8 +26,8 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
         return beside_a_curve(data, ledger, done, &unknown.before);
     }
     let goes = match held_out_ratio(ledger, done) {
-        r if r > RISES => "rises",
-        r if r * RISES >= 1.0 => "hardly changes,",
+        r if is_raised(r, 1.0) => "rises",
+        r if !is_raised(1.0, r) => "hardly changes,",
         _ => "falls",
     };
     format!(

@@ -3,6 +3,7 @@
 use super::intervals::quantile;
 use crate::algebra::line;
 use crate::problem::Prepared;
+use crate::scale::TWENTIETH;
 use crate::score::blocks::{blocks, BLOCKS};
 use std::ops::Range;
 
@@ -24,18 +25,13 @@ pub struct Line {
     pub offset: Fitted,
 }
 
-/// Gain and offset have changed if the change exceeds this share (for the offset, of the output's
-/// standard deviation) and this multiple of half of the interval. Both are choices: if the model
-/// describes the rig, neither changes from one record to the next (`--test ways calibration`).
-const MOVED: f64 = 0.05;
-const CLEARLY: f64 = 2.0;
-
 impl Fitted {
-    /// Whether the number differs clearly from a value, in units of a scale.
+    /// Whether the number differs from a value by more than a twentieth of a scale, and by more than the
+    /// width of its interval. A choice: if the model describes the rig, neither gain nor offset changes
+    /// as much from one record to the next (`--test ways calibration`).
     fn is_apart(&self, from: f64, scale: f64) -> bool {
         let by = (self.value - from).abs();
-        let half = self.ci95.map(|[low, high]| (high - low) / 2.0);
-        by > MOVED * scale && half.is_some_and(|half| by > CLEARLY * half)
+        by > TWENTIETH * scale && self.ci95.is_some_and(|[low, high]| by > high - low)
     }
 }
 

@@ -8,13 +8,13 @@
 
 use super::final_fit::FinalFit;
 use super::signs::comes_before;
-use crate::alteration::{beyond_noise, Alteration, Suspicion, HALF};
+use crate::alteration::{beyond_noise, Alteration, Suspicion};
 use crate::fit::Segments;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::record::Record;
+use crate::scale::{HALF, NOISE};
 use crate::search::left_by_names;
-use crate::search::policy::AT_FLOOR;
 
 /// Maximum number of channel alterations that are tried. Each costs as much as one linearisation of
 /// the baseline model. Four files with two channels have twelve.
@@ -45,7 +45,7 @@ type Way = (Option<usize>, Alteration);
 impl Run<'_> {
     /// The alteration that undone makes the model much better, if the residual exceeds the noise.
     pub(crate) fn suspicion(&self) -> Option<Suspicion> {
-        if self.done.rmse.fit <= AT_FLOOR * self.data.noise_floor {
+        if self.done.rmse.fit <= NOISE * self.data.noise_floor {
             return None;
         }
         let exchanged = comes_before(self.data).then(|| {

@@ -1,4 +1,5 @@
-//! Whether no model of the input can be identified, and the reason.
+//! Whether there is no model of the input, and why. In a valid model the input explains at least half
+//! of the held-out output.
 
 use super::changes::is_other_file;
 use super::files_apart::files_scaled;
@@ -8,11 +9,9 @@ use crate::fit::Solution;
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::record::Mode;
+use crate::scale::HALF;
 use crate::score::explains::{explained, explained_on, Explained};
 use bowden::model::Source;
-
-/// Least share of the held-out output that the input must explain in a valid model.
-const LEAST_EXPLAINED: f64 = 0.5;
 
 /// The share of the output explained by the variables that the model describes.
 ///
@@ -51,7 +50,7 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
     let shares = explained(data, &done.solution);
     let alone = explained(data, &ledger.declared).input;
     let is = ledger.declared.structure.reads(Source::Input) && shares.channels > shares.time;
-    (is && alone >= LEAST_EXPLAINED).then_some(alone)
+    (is && alone >= HALF).then_some(alone)
 }
 
 /// Whether nothing explains the held-out segment, although the baseline model explains the
@@ -60,9 +59,7 @@ fn stood_in_for(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Option<f64
 fn only_held_out_is_lost(data: &Prepared, declared: &Solution, held_out: Explained) -> bool {
     let all = held_out.input + held_out.channels + held_out.time;
     let before = explained_on(data, declared, &data.split.selection);
-    all < LEAST_EXPLAINED
-        && !data.split.selection.is_empty()
-        && judged(before, declared, declared) >= LEAST_EXPLAINED
+    all < HALF && !data.split.selection.is_empty() && judged(before, declared, declared) >= HALF
 }
 
 /// Whether one of the files appears to be logged differently from the others.
@@ -74,7 +71,7 @@ fn differs_in_a_file(ledger: &Ledger) -> bool {
 /// Whether there is no model of the input, or no common model of all files.
 pub(super) fn is_no_model(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> bool {
     let shares = explained(data, &done.solution);
-    let little = judged(shares, &ledger.declared, &done.solution) < LEAST_EXPLAINED
+    let little = judged(shares, &ledger.declared, &done.solution) < HALF
         && !is_other_file(data, done)
         && !only_held_out_is_lost(data, &ledger.declared, shares);
     ledger.integrates || !ledger.apart.is_empty() || differs_in_a_file(ledger) || little

@@ -13,17 +13,12 @@ use crate::ledger::{CoarseChannel, Grade, Ledger, Round};
 use crate::model::columns::{raw_columns, weighted};
 use crate::problem::{Channel, Prepared, Stretch};
 use crate::record::{Defect, DefectKind, Record, Steps};
+use crate::scale::HALF;
 use bowden::effect::Quantity;
 use bowden::model::Source;
 
-/// The steps matter if their effect on the model is more than this share of its residual, and more
-/// than the noise floor. A choice: half of an error is a quarter of its square.
-const MATTERS: f64 = 0.5;
-/// The steps explain the reduction by a name up to this multiple of their effect on the model, as
-/// RMS values. A choice: a name that removes more is larger than the steps.
-const EXPLAINS: f64 = 2.0;
-
-/// The channels whose steps matter to the final model; `prepare` puts records on the same grids.
+/// The channels whose steps matter to the final model: their effect on it is more than half of its
+/// residual, and more than the noise floor. `prepare` puts records on the same grids.
 pub(crate) fn coarse_channels(
     records: &[Record],
     done: &FinalFit,
@@ -46,7 +41,7 @@ pub(crate) fn coarse_channels(
         let steps = steps.iter().filter_map(own);
         let steps = steps.max_by(|a, b| a.step.total_cmp(&b.step))?;
         let error = moved(data, &finer, channel, &done.solution)?;
-        let matters = error > data.noise_floor && error > MATTERS * residual;
+        let matters = error > data.noise_floor && error > HALF * residual;
         matters.then(|| CoarseChannel {
             channel: match channel.checked_sub(1) {
                 None => data.input.name.clone(),
@@ -109,7 +104,8 @@ pub(crate) fn told(data: &mut Prepared, ledger: &mut Ledger, coarse: Vec<CoarseC
     }
 }
 
-/// Whether the steps explain the reduction by a name, which reads a velocity or has reversals.
+/// Whether the steps explain half or more of the reduction by a name, as RMS values. The name reads a
+/// velocity or has reversals.
 fn is_explained(round: &Round, error: f64) -> bool {
     let effect = &round.term().effect;
     let reads = |what: &Quantity| matches!(what, Quantity::Velocity | Quantity::Acceleration);
@@ -120,7 +116,7 @@ fn is_explained(round: &Round, error: f64) -> bool {
     let removed = (round.before.fit.powi(2) - round.after.fit.powi(2))
         .max(0.0)
         .sqrt();
-    is_of_motion && removed <= EXPLAINS * error
+    is_of_motion && HALF * removed <= error
 }
 
 fn note(data: &Prepared, coarse: &CoarseChannel) -> String {

@@ -9,12 +9,9 @@ use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Mode;
+use crate::scale::TRACE;
 use crate::score::tones::may_be_of_the_motion;
 use bowden::model::Source;
-
-/// Least share of the output's standard deviation at which a hysteresis is mentioned. A choice: a
-/// smaller one is a remainder of the fit of another part.
-const SHOWS: f64 = 0.01;
 
 /// Parts with memory, or friction, which may share the friction with a hysteresis.
 const FRICTION: [&str; 12] = [
@@ -104,7 +101,7 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     let eta: Vec<f64> = (0..data.target.len()).map(|i| gain * eta[i]).collect();
     let spread = |signal: &[f64]| Segments::deviation(data, signal).fit;
     if area(data, &eta) * area(data, &data.target) >= 0.0
-        || spread(&eta) < SHOWS * spread(&data.target)
+        || spread(&eta) < TRACE * spread(&data.target)
     {
         return None;
     }

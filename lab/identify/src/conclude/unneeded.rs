@@ -13,10 +13,8 @@ use super::intervals::term_name;
 use crate::fit::{fit_from, Known, Solution};
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
+use crate::scale::PART;
 use serde::Serialize;
-
-/// Share by which the held-out error may grow without a part that is not needed.
-const COST: f64 = 0.1;
 
 /// A part of the baseline that the data do not need.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,7 +46,7 @@ pub fn unneeded(ledger: &Ledger, done: &FinalFit) -> Vec<Unneeded> {
             }?;
             let held_out_without = without.rmse.held_out;
             let name = |term: usize| term_name(data, &last.structure.terms[term]);
-            (held_out_without < (1.0 + COST) * last.rmse.held_out).then(|| Unneeded {
+            (held_out_without < (1.0 + PART) * last.rmse.held_out).then(|| Unneeded {
                 effect: part.map_or_else(|| "bouc-wen".to_owned(), name),
                 held_out_without,
                 held_out_with: last.rmse.held_out,

@@ -4,7 +4,7 @@
 //! numbers printed above it, and states what the model must not be used for.
 
 use super::changes::other_rig;
-pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR, RISES};
+pub use super::errors::{falls_up_to, held_out_ratio, percent, raises, POOR};
 use super::errors::{floors, is_noise, is_worse, worse_than_a_constant};
 use super::excitation::without_reversals;
 use super::final_fit::FinalFit;

@@ -5,12 +5,9 @@ use super::finding::Finding;
 use super::numbers::{number, with_interval};
 use crate::alteration::{Alteration, Suspicion};
 use crate::ledger::{CoarseChannel, FileApart};
+use crate::scale::PART;
 use crate::score::explains::Explained;
 use crate::score::ranges::Outside;
-
-/// Share of an unmodelled curve that effects explain to first order, above which the sentence gives
-/// the reason for the curve. A choice: a reader who sees "95 %" asks why no effect is named.
-const NEARLY_ALL: f64 = 0.9;
 
 impl Finding {
     /// The finding in a sentence or two.
@@ -97,8 +94,8 @@ impl Finding {
                 format!("{size}{colour}.")
             }
             Self::NoNameForCurve { variable, by_effects } => {
-                // The fraction of the effects is known to first order; the refit and test decide.
-                let but = match *by_effects >= NEARLY_ALL {
+                // A reader who sees "95 %" asks why no effect is named: the refit and test decide.
+                let but = match *by_effects >= 1.0 - PART {
                     true => ", but none is accepted after a refit",
                     false => "",
                 };

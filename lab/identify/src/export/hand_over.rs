@@ -20,18 +20,7 @@ use crate::model::kind::is_stage;
 use crate::problem::still::noise;
 use crate::problem::Prepared;
 use crate::record::Record;
-
-/// Least error in firmware that the sentence mentions, as a share of the output's standard
-/// deviation ...
-const NOTABLE: f64 = 0.05;
-/// ... and its least multiple of the error of the fit. Both are a choice: of the ten measured rows
-/// three get the warning, the positioning drive, whose force is mostly inertia, and a cable tool.
-const OFF: f64 = 2.0;
-/// Half-width of the play before the hysteresis, in standard deviations of the input's noise: see
-/// [`Play`](bowden::signal::Play).
-const PLAY: f64 = 4.0;
-/// A play is reported if it reduces the error in firmware at least to this share.
-const HELPS: f64 = 0.5;
+use crate::scale::{HALF, SWING, TWENTIETH};
 
 /// The reason why a stage is not exported.
 const NO_INVERSE: &str = "--invertible: it has no inverse";
@@ -74,12 +63,12 @@ pub struct Calmed {
 }
 
 impl HandOver {
-    /// Whether the error in firmware is so much larger than that of the fit that the summary must
-    /// state it.
+    /// Whether the error in firmware is notable, and twice that of the fit. A choice: of the ten measured
+    /// rows three get the warning, the positioning drive, whose force is mostly inertia, and a cable tool.
     #[must_use]
     pub fn is_off(&self) -> bool {
         let (fit, firmware) = (self.nrmse.held_out, self.causal.held_out);
-        firmware > NOTABLE && firmware > OFF * fit
+        firmware > TWENTIETH && HALF * firmware > fit
     }
 
     /// Whether `--invertible` has made it different from the final model.
@@ -92,13 +81,13 @@ impl HandOver {
     /// With a play in front of the hysteresis, if it helps.
     fn calmed(&self, records: &[Record], data: &Prepared) -> Result<Option<Calmed>, String> {
         let noise = records.iter().map(|record| noise(&record.input.values));
-        let half_width = PLAY * noise.fold(0.0, f64::max);
+        let half_width = HALF * SWING * noise.fold(0.0, f64::max);
         if !self.is_off() || !self.fitted.solution.structure.hysteresis || half_width <= 0.0 {
             return Ok(None);
         }
         let play = Some(half_width);
         let causal_nrmse = causal(records, data, &self.files, self.time_constant, play)?;
-        let helps = causal_nrmse.held_out < HELPS * self.causal.held_out;
+        let helps = causal_nrmse.held_out < HALF * self.causal.held_out;
         Ok(helps.then_some(Calmed {
             half_width,
             causal_nrmse,

@@ -4,7 +4,7 @@ use super::asked::{label, Asked};
 use super::cost::{CostFacts, Meter, Stage};
 use super::figures::Figures;
 use super::ledger::{Detail, Facts};
-use crate::alteration::{Suspicion, HALF};
+use crate::alteration::Suspicion;
 use crate::conclude::files_apart::{judge_files, with_own_gains};
 use crate::conclude::final_fit::FinalFit;
 use crate::conclude::logged::Run;
@@ -18,6 +18,7 @@ use crate::ledger::Ledger;
 use crate::model::structure::Structure;
 use crate::problem::Prepared;
 use crate::record::Record;
+use crate::scale::HALF;
 use std::cell::Cell;
 
 /// A request for one or several records.

@@ -36,7 +36,7 @@ pub use source::{read_with_source, Source};
 
 // The plain data of lower rooms that facts are made of.
 pub use crate::alteration::{Alteration, Suspicion};
-pub use crate::check::{Errors, Outside, Verdict as CheckVerdict, HOLDS, NOISE};
+pub use crate::check::{Errors, Outside, Verdict as CheckVerdict, HOLDS};
 pub use crate::conclude::by_file::{FileErrors, FileShare, Worse};
 pub use crate::conclude::curve::Knot;
 pub use crate::conclude::finding::{Finding, Severity, Told};
@@ -65,6 +65,7 @@ pub use crate::record::{
     excerpt, outline, Defect, Line as TextLine, Mode, Options, Outline, Outlined,
     Part as ColumnPart, Record, RecordError,
 };
+pub use crate::scale::NOISE;
 pub use crate::score::autocorrelation::Autocorrelation;
 pub use crate::score::binned::{Bin, Mean};
 pub use crate::score::blocks::BLOCKS;

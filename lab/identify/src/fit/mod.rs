@@ -82,13 +82,12 @@ pub fn fit_from(
 
 /// Tolerance of the searches on the coarse grid after which optima are distinguished.
 const CLOSE: f64 = 1e-6;
-/// Two searches have reached one optimum where their squared errors differ by less than this
-/// share, a hundred times the tolerance ...
-const SAME_ERROR: f64 = 1e-4;
-/// ... and each parameter by less than this on the unbounded scale of its range. A choice.
+/// Two searches have reached one optimum where each parameter differs by less than this on the unbounded
+/// scale of its range. A choice.
 const SAME_PLACE: f64 = 0.02;
 
-/// The optima that differ from all better ones; `reached` is in the order of the errors.
+/// The optima that differ from all better ones, by a hundred times the tolerance of the error or by a
+/// parameter; `reached` is in the order of the errors.
 fn distinct(free: &[Free], reached: Vec<(f64, Vec<f64>)>) -> Vec<(f64, Vec<f64>)> {
     let near = |(f, (a, b)): (&Free, (&f64, &f64))| match f.range {
         Range::Free => (a - b).abs() <= SAME_PLACE * a.abs(),
@@ -97,7 +96,7 @@ fn distinct(free: &[Free], reached: Vec<(f64, Vec<f64>)>) -> Vec<(f64, Vec<f64>)
     let mut kept: Vec<(f64, Vec<f64>)> = Vec::with_capacity(reached.len());
     for (sse, values) in reached {
         let is_known = kept.iter().any(|(better, known)| {
-            sse - better <= SAME_ERROR * better
+            sse - better <= 100.0 * CLOSE * better
                 && free.iter().zip(known.iter().zip(&values)).all(near)
         });
         if !is_known {

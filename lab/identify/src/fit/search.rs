@@ -7,6 +7,7 @@ use crate::model::columns::{raw_columns_knowing, Beforehand, RawColumns};
 use crate::model::structure::{Free, Range, Role, Structure};
 use crate::problem::cost::{EVALUATIONS, JACOBIANS, SEARCHES};
 use crate::problem::{Prepared, Stretch};
+use crate::scale::TRACE;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -131,10 +132,7 @@ impl<'a> Reduced<'a> {
     fn new(data: &'a Prepared, structure: &'a Structure, free: &'a [Free], start: &[f64]) -> Self {
         let line = DVector::from_iterator(
             free.len(),
-            free.iter().zip(start).map(|(f, &v)| match f.range {
-                Range::Free => v,
-                range => range.encode(v).clamp(-START, START),
-            }),
+            free.iter().zip(start).map(|(f, &v)| f.range.on_line(v)),
         );
         let mut problem = Self {
             data,
@@ -209,13 +207,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Reduced<'_> {
     }
 }
 
-/// Least relative reduction of the squared error after which the search is repeated.
-const GAINED: f64 = 0.01;
 /// Maximum number of repetitions of a search.
 const AGAIN: usize = 6;
-/// Limit of a start on the unbounded scale of a bounded parameter: beyond it the map is so flat
-/// that the parameter would seem to have no influence.
-const START: f64 = 5.0;
 
 /// Searches from one start with about `most` evaluations; returns the sum of squares and the
 /// values reached.
@@ -260,7 +253,7 @@ pub(crate) fn descend_fully(
         if less < sse {
             (sse, values) = (less, better);
         }
-        if gained.is_nan() || gained < GAINED {
+        if gained.is_nan() || gained < TRACE {
             break;
         }
     }

@@ -1,5 +1,7 @@
 //! The range of a free parameter.
 
+use crate::scale::{TRACE, TWENTIETH};
+
 /// A free parameter's range, mapped to the whole line so that bounds hold by construction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {
@@ -12,9 +14,6 @@ pub enum Range {
     /// Not bounded (a phase).
     Free,
 }
-
-/// Least distance of a start from the ends of a linear range, in widths. A choice.
-const EDGE: f64 = 0.05;
 
 fn logistic(u: f64) -> f64 {
     1.0 / (1.0 + (-u).exp())
@@ -78,14 +77,25 @@ impl Range {
     #[must_use]
     pub(crate) fn inside(self, value: f64) -> f64 {
         match self {
-            Self::Linear(lo, hi) => value.clamp(lo + EDGE * (hi - lo), hi - EDGE * (hi - lo)),
+            Self::Linear(lo, hi) => {
+                value.clamp(lo + TWENTIETH * (hi - lo), hi - TWENTIETH * (hi - lo))
+            }
             _ => value,
         }
     }
 
     /// A value 5 % of the range above its lower end.
     pub(crate) fn near_least(self) -> f64 {
-        self.decode(logit(EDGE))
+        self.decode(logit(TWENTIETH))
+    }
+
+    /// A value on the unbounded scale, clamped to where the map is not so flat that a parameter would
+    /// seem to have no influence.
+    pub(crate) fn on_line(self, value: f64) -> f64 {
+        match self {
+            Self::Free => value,
+            range => range.encode(value).clamp(-5.0, 5.0),
+        }
     }
 
     /// The nearer bound to a value, in words.
@@ -102,7 +112,7 @@ impl Range {
     #[must_use]
     pub fn at_bound(self, u: f64) -> bool {
         let p = logistic(u);
-        !matches!(self, Self::Free) && !(0.01..=0.99).contains(&p)
+        !matches!(self, Self::Free) && !(TRACE..=1.0 - TRACE).contains(&p)
     }
 }
 

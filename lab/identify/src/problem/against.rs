@@ -3,17 +3,9 @@
 
 use super::Channel;
 use crate::algebra::{Span, Stretch};
+use crate::scale::{HALF, PART, TRACE};
 use nalgebra::DVector;
 use std::ops::Range;
-
-/// Least share of the output that determines its sign.
-const PLAIN: f64 = 0.01;
-/// A spring whose force is delayed appears to supply energy. If the part in phase with the position
-/// exceeds the part in phase with the velocity by more than this factor, it is such a spring.
-const SPRING: f64 = 2.0;
-/// If less than this share of the acceleration is independent of the position, as in a motion of
-/// one tone, the acceleration does not distinguish a mass from a spring.
-const ALIKE: f64 = 0.1;
 
 /// The note on such an output.
 pub(super) fn words(output: &str, input: &str) -> String {
@@ -25,7 +17,9 @@ pub(super) fn words(output: &str, input: &str) -> String {
 /// that the fit may use, on the work grid.
 ///
 /// The sign is that of the gain of the velocity if position, velocity and acceleration are fitted
-/// together: parts that only store energy do not contribute to it.
+/// together: parts that only store energy do not contribute to it. A spring whose force is delayed
+/// appears to supply energy, with less than half as much in phase with the velocity as with the
+/// position. In a motion of one tone the acceleration does not distinguish a mass from a spring.
 pub(super) fn against(
     input: &Channel,
     output: &[f64],
@@ -42,7 +36,7 @@ pub(super) fn against(
     let velocity = centred(&|i| input.motion[i].velocity);
     let output = centred(&|i| output[i]);
     let sizes = [position.norm(), velocity.norm()];
-    let mut span = Span::with_tolerance(ALIKE);
+    let mut span = Span::with_tolerance(PART);
     if !(span.add(position) && span.add(velocity)) {
         return false;
     }
@@ -50,5 +44,5 @@ pub(super) fn against(
     let size = output.norm();
     let gains = span.gains(&Stretch::from(output));
     let [with_position, with_velocity] = [gains[0] * sizes[0], gains[1] * sizes[1]];
-    with_velocity < -PLAIN * size && with_position < -SPRING * with_velocity
+    with_velocity < -TRACE * size && HALF * with_position < -with_velocity
 }

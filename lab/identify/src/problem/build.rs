@@ -8,6 +8,7 @@ use super::uniform::{usual_step, Uniform};
 use super::{filtered, motion, Channel, HeldOut, Piece, Preparation, Prepared, Split, ZeroPhase};
 use super::{floor, rest, still};
 use crate::record::{Column, Defect, Mode, Record};
+use crate::scale::QUARTER;
 use bowden::effect::Motion;
 use std::ops::Range;
 
@@ -17,10 +18,8 @@ const RATES_APART: f64 = 16.0;
 
 /// Of a record that is held out as a whole, the start counts only once the input has
 /// covered its half-range this many times: by then the hysteresis has forgotten its
-/// unknown state at the first sample ...
+/// unknown state at the first sample. No more than a quarter of the record is left out for it.
 const FORGOTTEN: f64 = 4.0;
-/// Largest share of the record that is excluded for this reason.
-const LEFT_OUT: f64 = 0.25;
 
 /// What all records have in common.
 pub(super) struct Grid {
@@ -461,7 +460,7 @@ fn path(input: &Channel, pieces: &[Piece], stride: usize) -> Vec<f64> {
 /// The row of a record after which its initial state has no influence.
 fn settled(piece: &Piece, path: &[f64], distance: f64) -> usize {
     let begin = path[piece.rows.start];
-    let most = piece.rows.start + (LEFT_OUT * piece.rows.len() as f64) as usize;
+    let most = piece.rows.start + (QUARTER * piece.rows.len() as f64) as usize;
     (piece.rows.start..most)
         .find(|&row| path[row] - begin >= distance)
         .unwrap_or(most)

@@ -39,8 +39,9 @@ impl Section {
     }
 }
 
-/// Rows that pass one section before the next: few enough to stay in the nearest cache.
-const BLOCK: usize = 64;
+/// Rows that pass one section before the next, or columns that are multiplied at a time: few enough to
+/// stay in the nearest cache.
+pub(crate) const BLOCK: usize = 64;
 /// The memory of a recursion is set to zero below this value.
 ///
 /// If a signal is zero for a long time, the memory would otherwise decay to denormal floats, which

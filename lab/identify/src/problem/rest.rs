@@ -1,17 +1,15 @@
 //! Rest before and after a test.
 //!
+//! A signal rests while it stays within a trace of its range and the swing of its noise, both of the
+//! value at that end of the record. Rest is left out if it is a part of the record.
+//!
 //! Loggers are started early and stopped late. A rest contains no information. But the segments are
 //! shares of the record, and a held-out segment at rest has no standard deviation with which to
 //! compare an error.
 
+use crate::scale::{PART, SWING, TRACE};
 use std::ops::Range;
 
-/// A signal rests while it stays within this share of its range ...
-const RANGE: f64 = 0.01;
-/// ... and this multiple of its noise, both of the value at that end of the record.
-const NOISE: f64 = 8.0;
-/// Rest is excluded if it takes at least this share of the record.
-const LEAST: f64 = 0.1;
 /// Minimum number of rows that must remain.
 pub(super) const FEWEST: usize = 160;
 
@@ -22,7 +20,7 @@ pub(super) const FEWEST: usize = 160;
 pub(super) fn moving(signals: &[(Vec<f64>, f64)], edge: usize) -> Range<usize> {
     let rows = signals.first().map_or(0, |(values, _)| values.len());
     let all = edge..rows - edge;
-    let kept = |rest: usize| match rest as f64 >= LEAST * rows as f64 {
+    let kept = |rest: usize| match rest as f64 >= PART * rows as f64 {
         true => rest - edge.min(rest),
         false => 0,
     };
@@ -41,7 +39,7 @@ fn resting(signals: &[(Vec<f64>, f64)], edge: usize, row: impl Fn(usize) -> usiz
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // The mean of equal values is rounded.
-        let near = RANGE * (high - low) + NOISE * noise + 1e-9 * at_end.abs();
+        let near = TRACE * (high - low) + SWING * noise + 1e-9 * at_end.abs();
         let rests = |k: &usize| (values[row(*k)] - at_end).abs() <= near;
         (0..values.len()).take_while(rests).count()
     };

@@ -1,18 +1,13 @@
 //! Spectra: of the input, from which the default cut-off is taken, and of the fit segment.
 
 use super::{Prepared, ZeroPhase};
+use crate::scale::{HALF, QUARTER, SWING, TRACE};
 use bowden_fourier::{Complex, Transform};
 
 /// The smoother may change the input by at most this share of its half-range: the hysteresis and a
 /// smoother do not commute, so a rounded corner looks like a lag. With 0.1 %, friction is still
 /// reported on a sound rig that is moved by a triangle wave.
 const ROUNDED: f64 = 3e-4;
-/// From this many standard deviations on, the change is a corner, not noise.
-const CORNER: f64 = 8.0;
-/// A change above this share of the half-range is not sensor noise, however often it occurs.
-const LARGE: f64 = 0.02;
-/// Factor by which the cut-off is raised for corners, until they are resolved.
-const RAISE: f64 = 1.25;
 
 /// About eight times the highest tone of the input \[Hz\], or more if the input has corners.
 ///
@@ -26,7 +21,7 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
     let peak = power.iter().copied().fold(0.0, f64::max);
     let bin = power
         .iter()
-        .rposition(|&p| p >= 0.01 * peak)
+        .rposition(|&p| p >= TRACE * peak)
         .unwrap_or(1)
         .max(1);
     let resolution = rate / (2 * (power.len() - 1)) as f64;
@@ -45,7 +40,7 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
                 Corner::Large => of_tones,
             });
         }
-        raw = (RAISE * raw).min(last);
+        raw = ((1.0 + QUARTER) * raw).min(last);
     }
     digits(raw)
 }
@@ -80,9 +75,10 @@ fn rounded(signal: &[f64], rate: f64, cutoff: f64) -> Option<Corner> {
     let quiet = *moved.select_nth_unstable_by(tenth, f64::total_cmp).1;
     // A tenth of the magnitudes of normal values is below 0.126 of their standard deviation.
     let (share, noise) = (most / (0.5 * (high - low)), quiet / 0.126);
-    match most > CORNER * noise {
+    match most > SWING * noise {
         true if share > ROUNDED => Some(Corner::Rare),
-        false if share > LARGE => Some(Corner::Large),
+        // Of the range a trace is not sensor noise, however often it occurs.
+        false if HALF * share > TRACE => Some(Corner::Large),
         _ => None,
     }
 }

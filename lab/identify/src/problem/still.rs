@@ -6,11 +6,10 @@
 
 use super::ZeroPhase;
 use crate::algebra::line;
+use crate::scale::SWING;
 
-/// A rest stays within this many standard deviations of the smoothed noise, to either side ...
-const NOISE: f64 = 4.0;
-/// ... for at least this many periods of the cut-off (in fewer the travel of the noise is small)
-/// ...
+/// A rest stays within the swing of the smoothed noise for at least this many periods of the cut-off
+/// (in fewer the travel of the noise is small) ...
 const LONG: f64 = 10.0;
 /// ... and has a standard deviation of at most this many of the noise's: three standard deviations
 /// of an estimate from at least fifty independent values.
@@ -80,7 +79,7 @@ pub(super) fn smoothed(smooth: &ZeroPhase, input: &[f64], period: f64) -> (Vec<f
 /// Replaces long rests of a smoothed signal with a line. The noise of the signal has the given
 /// standard deviation; `period` is that of the cut-off \[samples\]. Returns the samples at rest.
 fn still(smoothed: &mut [f64], noise: f64, period: f64) -> usize {
-    let (most, long) = (2.0 * NOISE * noise, (LONG * period).ceil() as usize);
+    let (most, long) = (SWING * noise, (LONG * period).ceil() as usize);
     let edge = period.ceil() as usize;
     let (mut start, mut rested) = (0, 0);
     while noise > 0.0 && start + long < smoothed.len() {

@@ -1,25 +1,23 @@
 //! Uniform time: the step, and the signals on it.
 
+use crate::scale::PART;
 use std::ops::Range;
 
 /// Rates that differ by less than this share are one rate: clocks drift by less.
 const SAME_RATE: f64 = 1e-3;
-
-/// A clock is steady if its steps, except for a tenth at either end of their distribution, deviate
-/// by less than this share.
-const STEADY: f64 = 0.1;
 
 /// The usual step of a record \[s\].
 pub(super) fn usual_step(time: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     steps.sort_by(f64::total_cmp);
     let median = steps[steps.len() / 2];
+    // A clock is steady if its steps, but for a tenth at either end, deviate by less than a part.
     // The mean of the steps that are no gaps. Where the clock is steady, a step over a row that was lost
     // is two of them: counted as one it would move every sample behind it off the grid.
     let usual = &steps[..steps.partition_point(|s| *s <= 3.0 * median)];
     let single = steps.partition_point(|s| *s <= 1.5 * median);
     let off = |i: usize| (steps[i] - median).abs() / median;
-    let steady = off(single / 10).max(off(single - 1 - single / 10)) < STEADY;
+    let steady = off(single / 10).max(off(single - 1 - single / 10)) < PART;
     let samples = usual.iter().map(|s| match steady {
         true => (s / median).round().max(1.0),
         false => 1.0,

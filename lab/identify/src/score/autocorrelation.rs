@@ -10,11 +10,10 @@
 
 use super::whiteness::impulse_response;
 use crate::problem::{Piece, Prepared};
+use crate::scale::{quantile, LEVEL_OF_ONE};
 
 /// Number of lags.
 const LAGS: usize = 64;
-/// Normal quantile of a two-sided 95 % interval.
-const QUANTILE: f64 = 1.959_964;
 
 /// Autocorrelation at the lags 0, 1, 2, … of the estimation grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,12 +37,14 @@ impl Autocorrelation {
         let at = |lag: usize| rho.get(lag).copied().unwrap_or(0.0);
         let variance = bartlett(&rho, lags);
         let n = rows.len().max(1) as f64;
+        // Two-sided.
+        let normal = quantile(LEVEL_OF_ONE / 2.0);
         let of = |residual: &&[f64]| estimate(residual, rows, &data.pieces, lags);
         Self {
             step: data.dt * data.stride as f64,
             residuals: residuals.iter().map(of).collect(),
             white: (0..=lags).map(at).collect(),
-            half_width: variance.iter().map(|v| QUANTILE * (v / n).sqrt()).collect(),
+            half_width: variance.iter().map(|v| normal * (v / n).sqrt()).collect(),
         }
     }
 
@@ -182,7 +183,7 @@ mod tests {
                     .collect(),
                 half_width: half
                     .iter()
-                    .map(|v| QUANTILE * (v / n as f64).sqrt())
+                    .map(|v| quantile(LEVEL_OF_ONE / 2.0) * (v / n as f64).sqrt())
                     .collect(),
                 residuals: Vec::new(),
             };

@@ -6,11 +6,8 @@ use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::Variable;
 use crate::problem::{Prepared, Stretch};
+use crate::scale::{LEVEL, PART};
 
-/// Level of the test, divided by the number of variables.
-const LEVEL: f64 = 0.01;
-/// Least share of the squared error that a curve removes.
-const SHARE: f64 = 0.1;
 /// Least reduction of the SSE to first order, as a share of the best curve's.
 const CLOSE: f64 = 0.7;
 /// Maximum number of curves.
@@ -79,7 +76,7 @@ fn curves(
         .collect();
     found.sort_by(|a, b| b.0.share.total_cmp(&a.0.share));
     let best = found.first().map_or(0.0, |(s, _)| s.share);
-    found.retain(|(s, _)| s.share >= CLOSE * best && s.share >= SHARE);
+    found.retain(|(s, _)| s.share >= CLOSE * best && s.share >= PART);
     found.truncate(CURVES);
     found
 }

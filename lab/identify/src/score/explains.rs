@@ -9,6 +9,7 @@ use crate::algebra::least_norm;
 use crate::fit::{Segments, Solution};
 use crate::model::Variable;
 use crate::problem::{Channel, Prepared};
+use crate::scale::{PART, QUARTER};
 use bowden::effect::Quantity;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
@@ -156,18 +157,13 @@ pub fn explained_on(data: &Prepared, solution: &Solution, rows: &[usize]) -> Exp
     }
 }
 
-/// Largest SSE with the integral of the input, as a share of the SSE with the input itself.
-const INTEGRAL_LEAVES: f64 = 0.1;
-/// Largest SSE with the integral, as a share of the SSE with the input's rate and of the SSE
-/// of the fitted model: a loop that opens with the motion leads, an integral lags.
-const RIVAL_LEAVES: f64 = 0.25;
-
 /// Whether the output follows the time integral of the input instead of the input itself, as the
 /// angle of a motor follows the integral of its voltage.
 ///
 /// A regression on \[1, t, x, integral of x\] is compared with those on \[1, t, x\] and on
-/// \[1, t, x, rate of x\], and with the fitted model. A single tone cannot tell an integral
-/// from a rate of the opposite sign: then the answer is no.
+/// \[1, t, x, rate of x\], and with the fitted model: a loop that opens with the motion leads, an
+/// integral lags. A single tone cannot tell an integral from a rate of the opposite sign: then the
+/// answer is no.
 #[must_use]
 pub fn integrates(data: &Prepared, declared: &Solution) -> bool {
     let rows = &data.split.fit;
@@ -197,8 +193,8 @@ pub fn integrates(data: &Prepared, declared: &Solution) -> bool {
     let own = on_fit(&by_integral);
     let held_out = squares(&data.split.held_out, &by_integral);
     on_fit(&by_input) > 0.5 * whole
-        && own <= INTEGRAL_LEAVES * on_fit(&by_input)
-        && own <= RIVAL_LEAVES * on_fit(&by_rate)
-        && own <= RIVAL_LEAVES * on_fit(&declared.residual)
-        && held_out <= RIVAL_LEAVES * squares(&data.split.held_out, &declared.residual)
+        && own <= PART * on_fit(&by_input)
+        && own <= QUARTER * on_fit(&by_rate)
+        && own <= QUARTER * on_fit(&declared.residual)
+        && held_out <= QUARTER * squares(&data.split.held_out, &declared.residual)
 }

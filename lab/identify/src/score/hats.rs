@@ -9,16 +9,11 @@ use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::{Table, Variable};
 use crate::problem::Prepared;
+use crate::scale::TRACE;
 use nalgebra::{DMatrix, DVector};
 
 /// Hat functions of a curve that is tested.
 pub(crate) const HATS: usize = 10;
-/// A direction whose residual share after the model is below this is dropped.
-const APART: f64 = 0.01;
-/// Knots closer than this share of the range are merged. If strokes rest at their ends, the
-/// quantiles accumulate there, and a curve that bends within a few thousandths of the range encodes
-/// when the motion rests, not a position.
-const CLOSE: f64 = 1e-2;
 
 /// Regression of a residual on a curve over one variable, to first order.
 #[derive(Debug, Clone)]
@@ -67,7 +62,7 @@ pub(crate) fn score(
     let inner = &root * left.tr_mul(&left) * root.transpose();
     let mut shapes = Vec::new();
     let mut units = Vec::new();
-    for (rest, direction) in directions(inner, APART) {
+    for (rest, direction) in directions(inner, TRACE) {
         let weights = root.transpose() * direction;
         units.push(&left * &weights / rest.sqrt());
         shapes.push(weights.iter().copied().collect());
@@ -104,9 +99,11 @@ pub(crate) fn hats(
     let mut knots: Vec<f64> = Vec::with_capacity(count);
     for k in 0..count {
         let at = seen[(seen.len() - 1) * k / (count - 1)];
+        // If strokes rest at their ends, the quantiles accumulate there, and a curve that bends within a
+        // few thousandths of the range encodes when the motion rests, not a position.
         let apart = knots
             .last()
-            .is_none_or(|&k| at - k > CLOSE * (last - first));
+            .is_none_or(|&k| at - k > TRACE * (last - first));
         if at.is_finite() && apart {
             knots.push(at);
         }

@@ -1,11 +1,8 @@
 //! Quantities of a motion that exceed the ranges of the model's record.
 
 use crate::problem::{Channel, Prepared};
+use crate::scale::TWENTIETH;
 use bowden::effect::Motion;
-
-/// Excesses beyond the model's range are listed from this share of that range on: two records of
-/// one motion differ by less.
-pub(crate) const BEYOND: f64 = 0.05;
 
 /// A quantity that the model reads and whose range exceeds that of the model's record.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -57,7 +54,7 @@ pub(crate) fn beyond(
 ) -> Option<Outside> {
     let [low, high] = seen;
     let here = range(data, channel, rows, of);
-    let margin = BEYOND * (high - low);
+    let margin = TWENTIETH * (high - low);
     if here[0] >= low - margin && here[1] <= high + margin {
         return None;
     }

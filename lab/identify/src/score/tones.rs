@@ -3,39 +3,32 @@
 //! A peak is compared with the median of the bins around it, since a coloured residual has no
 //! common level (Fisher's g supposes one and rejects on every record). The slope of the filter is
 //! divided out first, so that a line above the cut-off is found too: the filter passes half of
-//! the amplitude there. Lines of the input and their multiples are excluded: a static
-//! non-linearity also produces lines there. A line at a sum or difference of the motion's lines may
-//! also have this cause ([`is_combination`]).
+//! the amplitude there, and a search goes on to where it passes a tenth. Lines of the input and their
+//! multiples are excluded: a static non-linearity also produces lines there. A line at a sum or
+//! difference of the motion's lines may also have this cause ([`is_combination`]).
 
 use crate::model::kind::{kind, Kind};
 use crate::model::structure::FitTerm;
 use crate::problem::filter::gain;
 use crate::problem::spectrum::power_of_fit;
 use crate::problem::{Channel, Prepared, MOST_RECORDS};
+use crate::scale::{LEVEL, PART, QUARTER, TRACE};
 use bowden::effect::Effect;
 use bowden::model::Source;
 use bowden_fourier::Complex;
 use std::f64::consts::TAU;
 
-/// Level of the test, divided by the number of bins.
-const LEVEL: f64 = 0.01;
 /// Bins on either side from which the noise level is taken.
 const AROUND: usize = 25;
-/// Least gain of the filter at a frequency that is searched: up to 1.3 times the cut-off.
-const PASSED: f64 = 0.1;
 /// Multiples of the input's lines that count as lines of the input ...
 const MULTIPLES: usize = 7;
-/// ... this many bins to either side; more of either leaves little to search ...
+/// ... this many bins to either side; more of either leaves little to search.
 const NEAR: f64 = 0.6;
-/// ... and the least power of a line of the input, as a share of its strongest line.
-const LINE: f64 = 0.01;
 /// Number of the strongest lines of the motion whose sums and differences are considered ...
 const COMBINED: usize = 6;
 /// ... up to the highest of these orders (a combination of n lines, with repetitions, has order n)
-/// at which they cover ...
+/// at which they cover no more than a quarter of the bins.
 const ORDERS: [i32; 3] = [5, 3, 2];
-/// ... no more than this share of the bins. A choice: an external disturbance is doubted as often.
-const TAKEN: f64 = 0.25;
 /// Steps to either side in which the frequency is refined, within one bin.
 const STEPS: i32 = 50;
 
@@ -52,7 +45,7 @@ pub(crate) fn strongest(data: &Prepared, residual: &[f64]) -> Option<(f64, f64)>
     let bins = data.split.fit.last()? - data.split.fit.first()? + 1;
     let seconds = bins as f64 * step(data);
     let passed = |k: &usize| gain(data.cutoff, 1.0 / data.dt, *k as f64 / seconds);
-    let passes = (0..powers.len()).take_while(|k| passed(k) >= PASSED);
+    let passes = (0..powers.len()).take_while(|k| passed(k) >= PART);
     let highest = passes.last()?;
     for (k, power) in powers.iter_mut().enumerate().take(highest + 1) {
         *power /= passed(&k).powi(2);
@@ -139,7 +132,7 @@ fn is_near_a_sum(lines: &[f64], highest: usize, place: f64) -> bool {
     let mut orders = ORDERS.iter().map(|&order| combinations(lines, order));
     let is_few = |sums: &Vec<f64>| {
         let taken = (1..=highest).filter(|&k| near(sums, k as f64)).count();
-        taken as f64 <= TAKEN * highest as f64
+        taken as f64 <= QUARTER * highest as f64
     };
     orders.find(is_few).is_some_and(|sums| near(&sums, place))
 }
@@ -162,11 +155,13 @@ fn combinations(lines: &[f64], order: i32) -> Vec<f64> {
     all.map(|(_, at)| at).collect()
 }
 
-/// The lines of a spectrum.
+/// The lines of a spectrum that have at least a trace of the power of its strongest.
 fn lines(power: &[f64]) -> Vec<Line> {
     let peak = power.iter().copied().fold(0.0, f64::max);
     (1..power.len().saturating_sub(1))
-        .filter(|&k| power[k] >= LINE * peak && power[k] >= power[k - 1] && power[k] > power[k + 1])
+        .filter(|&k| {
+            power[k] >= TRACE * peak && power[k] >= power[k - 1] && power[k] > power[k + 1]
+        })
         .map(|k| {
             // In logarithms the main lobe of a Hann window is nearly a parabola.
             let [a, b, c] = [power[k - 1], power[k], power[k + 1]].map(|p| p.max(1e-300).ln());

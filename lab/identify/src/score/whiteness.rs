@@ -5,21 +5,14 @@ use crate::fit::Solution;
 use crate::problem::filter::{gain, ZeroPhase};
 use crate::problem::spectrum::power_of_fit;
 use crate::problem::Prepared;
-
-/// Largest correlation time of filtered white noise, as a multiple of the filter's own.
-const WHITE: f64 = 1.5;
-/// Share of the cut-off up to which the spectrum is tested: beyond it the slope of the filter
-/// dominates.
-const HIGHEST: f64 = 0.9;
-/// Critical value of Kolmogorov's distance times the root of the count, at a level of 1 %.
-const KOLMOGOROV: f64 = 1.63;
+use crate::scale::{HALF, LEVEL, PART};
 
 /// Whether the residual is compatible with filtered white noise: its correlation time is that
-/// of the filter, and its spectrum in the band is level.
+/// of the filter or up to half as long again, and its spectrum in the band is level.
 pub(crate) fn is_white(data: &Prepared, solution: &Solution) -> bool {
     let fit = &data.split.fit;
     let rest: Vec<f64> = fit.iter().map(|&i| solution.residual[i]).collect();
-    correlation_samples(&rest) <= WHITE * white_correlation(data).max(0.5)
+    correlation_samples(&rest) <= (1.0 + HALF) * white_correlation(data).max(0.5)
         && is_level(&densities(data, &solution.residual))
 }
 
@@ -48,7 +41,8 @@ fn densities(data: &Prepared, residual: &[f64]) -> Vec<f64> {
     // No window: the test needs independent bins.
     let power = power_of_fit(data, residual, |_, _| 1.0).unwrap_or_default();
     let seconds = (last - first + 1) as f64 * data.stride as f64 * data.dt;
-    let highest = (HIGHEST * data.cutoff * seconds) as usize;
+    // Beyond that the slope of the filter dominates.
+    let highest = ((1.0 - PART) * data.cutoff * seconds) as usize;
     let bins = power.iter().enumerate().skip(1).take(highest);
     bins.map(|(k, power)| {
         let passed = gain(data.cutoff, 1.0 / data.dt, k as f64 / seconds);
@@ -57,7 +51,7 @@ fn densities(data: &Prepared, residual: &[f64]) -> Vec<f64> {
     .collect()
 }
 
-/// Bartlett's test of the cumulative periodogram (1955), at 1 %. It also detects a single line,
+/// Bartlett's test of the cumulative periodogram (1955). It also detects a single line,
 /// which the correlation time does not show.
 fn is_level(densities: &[f64]) -> bool {
     let (sum, count) = (densities.iter().sum::<f64>(), densities.len() as f64);
@@ -70,7 +64,8 @@ fn is_level(densities: &[f64]) -> bool {
         below += density;
         farthest = farthest.max((below / sum - (k + 1) as f64 / count).abs());
     }
-    farthest <= KOLMOGOROV / count.sqrt()
+    // Kolmogorov's distribution of the distance, but for its smaller terms.
+    farthest <= (-HALF * (HALF * LEVEL).ln() / count).sqrt()
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::model::structure::{FitTerm, Range, Role};
 use crate::model::Variable;
 use crate::problem::filter::ABREAST;
 use crate::problem::{Prepared, Stretch};
-use crate::score::hats::{hats, is_phase};
+use crate::score::hats::{hats, is_phase, HATS};
 use crate::score::tones;
 use bowden::effect::Effect;
 use bowden::model::Source;
@@ -20,14 +20,10 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Hat functions of a curve in the Gram matrix: ten miss a bump of width 0.08 of the range.
-pub(super) const HATS_IN_GRAM: usize = 20;
 /// Number of step times that are tried in addition to the catalogue's.
 const STEPS: usize = 4;
 /// Step of the difference quotients, on the unbounded scale that a range is mapped to.
 const DIFFERENCE: f64 = 1e-3;
-/// Beyond this point of the unbounded scale the map to the range is flat.
-const FLAT: f64 = 5.0;
 
 /// Identity of a member of a set, independent of its shapes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,14 +74,6 @@ pub(super) struct Bank<'a> {
     /// Columns of the latest linearisation that are the same in the next one, with their
     /// products.
     pub(super) products: (Vec<Arc<Stretch>>, Grams),
-}
-
-/// A value on the unbounded scale of its range, clamped to where the map is not flat.
-pub(super) fn on_line(range: Range, value: f64) -> f64 {
-    match range {
-        Range::Free => value,
-        other => other.encode(value).clamp(-FLAT, FLAT),
-    }
 }
 
 /// Whether the column of a term is the same for all models of this record.
@@ -206,7 +194,8 @@ impl<'a> Bank<'a> {
                 if let Some(known) = self.curves.iter().find(|(own, _)| *own == v) {
                     return Some(known.clone());
                 }
-                let raw = hats(self.seen, now, v, HATS_IN_GRAM)?.columns(self.seen, &now.eta)?;
+                // Ten hats miss a bump of width 0.08 of the range.
+                let raw = hats(self.seen, now, v, 2 * HATS)?.columns(self.seen, &now.eta)?;
                 let raw: Vec<&[f64]> = raw.iter().map(|c| &c[..]).collect();
                 let columns = self.seen.filtered_all(&raw);
                 let is_usable = columns.iter().all(|c| is_finite(c));
@@ -280,7 +269,7 @@ fn slope(
         Own::Shape(index) => term.effect.shape(index)?,
         Own::Origin => term.origin,
     };
-    let u = on_line(range, value);
+    let u = range.on_line(value);
     let at = |u: f64| now.adds(data, &moved(range.decode(u))?);
     let (mut up, down) = (at(u + DIFFERENCE)?, at(u - DIFFERENCE)?);
     for (a, b) in up.iter_mut().zip(&down) {

@@ -5,11 +5,11 @@
 //! helps: the delivered model is the simplest one whose error on blocks that were left out of its
 //! linear fit is not worse than the smallest of all ([`delivered`]).
 
-use super::bank::on_line;
 use super::policy;
 use crate::algebra::least_norm;
 use crate::fit::Solution;
 use crate::problem::{Prepared, Stretch};
+use crate::scale::LEVEL_OF_ONE;
 use crate::score::blocks::{blocks, sign_flip_p_above};
 use nalgebra::{DMatrix, DVector};
 use rand::seq::SliceRandom;
@@ -18,12 +18,10 @@ use rand_chacha::ChaCha8Rng;
 
 /// A slope is excluded if its squared norm is below this share of the residual's.
 const MOVES: f64 = 1e-6;
-/// Fixed seed: every record is divided into the same half-sets.
-const SEED: u64 = 1;
 
 /// Random half-sets of the blocks, in complementary pairs.
 pub(super) fn halves(blocks: usize, count: usize) -> Vec<Vec<usize>> {
-    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
     let mut all = Vec::with_capacity(count);
     let mut order: Vec<usize> = (0..blocks).collect();
     while all.len() < count {
@@ -66,7 +64,7 @@ impl Parts {
         }
         let free = solution.free.iter().zip(&solution.values);
         for ((f, &value), tangent) in free.zip(&solution.tangents) {
-            let slope = f.range.slope(on_line(f.range, value));
+            let slope = f.range.slope(f.range.on_line(value));
             let column = tangent.map(|t| t * slope);
             if squares(&column) > MOVES * residual {
                 columns.push(column);
@@ -190,7 +188,7 @@ impl LeftOut {
     fn is_as_good_as(&self, other: &Self) -> bool {
         let pairs = self.on_blocks.iter().zip(&other.on_blocks);
         let ratios: Vec<f64> = pairs.map(|(own, other)| own - other).collect();
-        sign_flip_p_above(&ratios) > policy::SHORTER
+        sign_flip_p_above(&ratios) > LEVEL_OF_ONE
     }
 }
 

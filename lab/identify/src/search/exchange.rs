@@ -25,6 +25,7 @@ use crate::ledger::Rejection;
 use crate::model::structure::{FitTerm, Role, Structure};
 use crate::model::Variable;
 use crate::problem::MOST_RECORDS;
+use crate::scale::{is_raised, LEVEL_OF_ONE, PART, TWENTIETH};
 use crate::score::blocks::{sign_flip_p_above, Regime};
 use crate::score::left_out::ratios;
 use bowden::effect::Effect;
@@ -154,19 +155,19 @@ impl Search<'_> {
         let is_noise = self.is_at_noise(&law);
         let margin = match is_noise {
             true => FALLEN,
-            false => policy::EQUAL,
+            false => PART,
         };
-        if new > old - margin || law.rmse.selection > policy::NOT_WORSE * self.now.rmse.selection {
+        if new > old - margin || is_raised(law.rmse.selection, self.now.rmse.selection) {
             return None;
         }
         let pair = self.pair(place)?;
         let p = sign_flip_p_above(&ratios(self.data, &pair, &law));
         let gained = (pair.sse(self.data) / law.sse(self.data)).ln();
         let (least, worst) = match is_noise {
-            true => (0.0, policy::NOT_WORSE),
+            true => (0.0, 1.0 + TWENTIETH),
             false => (policy::CURVE_AGAINST_NAMES, 1.0),
         };
-        let beats = p <= policy::SHORTER
+        let beats = p <= LEVEL_OF_ONE
             && gained > least
             && law.rmse.selection <= worst * pair.rmse.selection;
         beats.then_some((law, p))

@@ -8,6 +8,7 @@
 
 use super::policy::EXCITED;
 use crate::algebra::{add, directions, subtract, Stretch};
+use crate::problem::filter::BLOCK;
 use crate::score::blocks::flips;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -19,8 +20,6 @@ pub(super) const DEPENDENT: f64 = 1e-9;
 const SLOPE: f64 = 1e-5;
 /// Groups of at most this many columns are solved without a heap allocation.
 const SMALL: usize = 6;
-/// A direction with a residual share below this of its squared norm has no score.
-const DIRECTION: f64 = 1e-4;
 
 /// Products of all columns with each other: in total and for each block.
 ///
@@ -34,20 +33,14 @@ pub struct Grams {
     parts: Vec<Vec<f64>>,
 }
 
-/// Columns for which there is room beyond those that are kept.
-const ROOM: usize = 32;
-
 /// Place of the product of columns `i` and `j <= i` in a lower triangle: row `i` has the
 /// products with the columns up to `i`, so that more columns are more rows.
 fn place(i: usize, j: usize) -> usize {
     i * (i + 1) / 2 + j
 }
 
-/// Columns that are multiplied with those before them at a time: about half of a square of
-/// products is not needed.
-const AT_A_TIME: usize = 64;
-
-/// Appends to the products of one block the products of the columns from `old` on with all before.
+/// Appends to the products of one block the products of the columns from `old` on with all before, a
+/// block of columns at a time: about half of a square of products is not needed.
 fn multiply(
     part: &mut Vec<f64>,
     old: usize,
@@ -70,8 +63,8 @@ fn multiply(
     while first < size {
         // No few columns alone: their products would be rounded in another way.
         let end = match size - first {
-            rest if rest < AT_A_TIME + AT_A_TIME / 2 => size,
-            _ => first + AT_A_TIME,
+            rest if rest < BLOCK + BLOCK / 2 => size,
+            _ => first + BLOCK,
         };
         let products = transposed.rows(0, end) * all.columns(first, end - first);
         for (i, own) in (first..end).zip(products.as_slice().chunks_exact(end)) {
@@ -140,7 +133,7 @@ impl Grams {
     pub fn only(&self, columns: &[usize]) -> Self {
         let mut runs: Vec<Range<usize>> = Vec::new();
         // The next linearisation has about as many columns as this one.
-        let room = place(self.size + ROOM, 0);
+        let room = place(self.size + BLOCK, 0);
         let empty = self.parts.iter().map(|_| Vec::with_capacity(room));
         let mut parts: Vec<Vec<f64>> = empty.collect();
         let mut whole = Vec::with_capacity(columns.len() * columns.len());
@@ -265,7 +258,7 @@ impl Grams {
 
 /// Scores along the independent directions, each of unit variance.
 fn whitened(scores: &[Vec<f64>], inner: DMatrix<f64>) -> Vec<Vec<f64>> {
-    let directions = directions(inner, DIRECTION);
+    let directions = directions(inner, EXCITED);
     let along = |s: &Vec<f64>, (size, direction): &(f64, DVector<f64>)| -> f64 {
         let dot: f64 = direction.iter().zip(s).map(|(a, b)| a * b).sum();
         dot / size.sqrt()

@@ -21,6 +21,7 @@ use crate::fit::settle::settle;
 use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::structure::{FitTerm, Role, Structure};
+use crate::scale::{LEVEL_OF_ONE, NOISE, PART};
 use crate::score::blocks::{sign_flip_p_above, Regime};
 use crate::score::left_out::ratios;
 use bowden::model::Source;
@@ -59,16 +60,16 @@ impl Search<'_> {
         let terms = terms.map(|candidate| candidate.term);
         let own = terms.filter(|t| t.source == Source::Input && t.effect.name() == HIDDEN);
         let structures: Vec<Structure> = own.map(|term| self.and(term)).collect();
-        let at_noise = (policy::AT_FLOOR * self.data.noise_floor / self.now.rmse.fit).powi(2);
+        let at_noise = (NOISE * self.data.noise_floor / self.now.rmse.fit).powi(2);
         let is_hopeless = |rough: f64| (rough / (at_noise * standing.sse)).ln() > policy::HOPELESS;
         let next = self.fitted(&structures, structures.len(), is_hopeless)?;
         let next = self.of_its_sign(next)?;
         let gained = (self.now.sse(self.data) / next.sse(self.data)).ln();
-        let least = linear.prices.of_name(2) + policy::EQUAL;
+        let least = linear.prices.of_name(2) + PART;
         let p = sign_flip_p_above(&ratios(self.data, &self.now, &next));
         let accepted = self.is_at_noise(&next)
             && gained > least
-            && p <= policy::SHORTER
+            && p <= LEVEL_OF_ONE
             && gates(self.data, &self.now, &next, linear.regime).is_ok();
         accepted.then_some((next, p))
     }

@@ -9,7 +9,7 @@ use super::linear::{Linear, Member};
 use super::moves::{is_same, Move};
 use super::policy;
 use super::refit::{Priced, Tried};
-use super::run::{Search, Standing, FALLEN, STARTS};
+use super::run::{Search, Standing, FALLEN};
 use crate::model::catalogue::Candidate;
 use crate::model::kind::is_stage;
 use crate::model::Variable;
@@ -76,7 +76,7 @@ impl Search<'_> {
             }
             let grids = (self.coarse, &standing.moved);
             let wanted = |rough: &Priced| rough.j < j + policy::HOPELESS;
-            tried.extend(linear.refit(grids, &one, STARTS, wanted));
+            tried.extend(linear.refit(grids, &one, usize::MAX, wanted));
         }
         tried.retain(|t| t.j < j - FALLEN);
         tried

@@ -10,13 +10,13 @@ use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
 use crate::problem::{Prepared, Stretch};
+use crate::scale::{HALF, LEVEL, PART, TWENTIETH};
 use crate::score::blocks::{blocks, Regime};
+use crate::score::hats::HATS;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Maximum number of degrees of freedom with a tabulated quantile.
-const FREEDOMS: usize = 48;
 /// Slopes of a candidate, and curves, are computed from this share of the least reduction on:
 /// at a lattice shape a candidate reaches 0.4 of its reduction at the fitted shape.
 const WORTH: f64 = 0.4;
@@ -110,24 +110,25 @@ impl Prices {
     /// The chi-square quantile divided by the number of independent values of the fit segment;
     /// without a test that number is one value every two correlation times.
     fn new(level: f64, regime: Regime, (band, values): (f64, f64), curve: f64) -> Self {
-        let (low, high) = policy::LEAST_UNTESTED;
         let of = |d: usize| {
             let chance = ChiSquared::new(d.max(1) as f64)
                 .map_or(f64::INFINITY, |c| c.inverse_cdf(1.0 - level));
             match regime {
-                Regime::Blocks => policy::LEAST.max(chance / band),
-                Regime::Effect => (chance / values).clamp(low, high),
+                // An effect that removes less than a twentieth of the SSE is not worth a term.
+                Regime::Blocks => TWENTIETH.max(chance / band),
+                // Without a test: a part of the SSE or more; what halves it is always worth a proposal.
+                Regime::Effect => (chance / values).clamp(-(1.0 - PART).ln(), -HALF.ln()),
             }
         };
         Self {
-            by_freedoms: (0..=FREEDOMS).map(of).collect(),
+            by_freedoms: (0..=4 * HATS).map(of).collect(),
             curve,
             level,
         }
     }
 
     pub(super) fn of_name(&self, freedoms: usize) -> f64 {
-        self.by_freedoms[freedoms.min(FREEDOMS)]
+        self.by_freedoms[freedoms.min(4 * HATS)]
     }
 
     pub(super) fn of_curve(&self, hats: usize) -> f64 {
@@ -420,7 +421,7 @@ impl<'a> Linear<'a> {
     pub(super) fn price(&self, group: usize) -> f64 {
         let own = &self.groups[group];
         match own.is_curve() {
-            true => self.prices.of_curve(crate::score::hats::HATS),
+            true => self.prices.of_curve(HATS),
             false => self.prices.of_name(own.freedoms),
         }
     }
@@ -484,5 +485,5 @@ fn level(groups: &[Group]) -> f64 {
             sources.push(source);
         }
     }
-    policy::LEVEL / (families.len() * sources.len()).max(1) as f64
+    LEVEL / (families.len() * sources.len()).max(1) as f64
 }

@@ -8,10 +8,11 @@ use super::kept::Kept;
 use super::linear::{Group, Linear};
 use super::moves::{is_same, Move};
 use super::policy;
-use super::run::{Search, Standing, STARTS};
+use super::run::{Search, Standing};
 use crate::ledger::Description;
 use crate::model::catalogue::Candidate;
 use crate::model::mechanism::Mechanism;
+use crate::scale::TWENTIETH;
 use rayon::prelude::*;
 
 impl Search<'_> {
@@ -47,7 +48,7 @@ impl Search<'_> {
     ) -> Vec<Description> {
         let linear = &standing.linear;
         let refitted = |one: &Move| {
-            let real = linear.refit((self.coarse, &standing.moved), one, STARTS, |_| true)?;
+            let real = linear.refit((self.coarse, &standing.moved), one, usize::MAX, |_| true)?;
             let terms = one.added.iter();
             let terms: Option<Vec<Candidate>> =
                 terms.map(|&g| linear.groups[g].candidate()).collect();
@@ -119,7 +120,7 @@ impl Linear<'_> {
             let added = [&set.added[..], &[g]].concat();
             let left = sse - swept.gain(&self.groups[g].columns, target);
             let parameters: usize = added.iter().map(|&a| self.groups[a].freedoms).sum();
-            let promise = (unit * left.max(1e-14 * sse)).ln() + policy::LEAST * parameters as f64;
+            let promise = (unit * left.max(1e-14 * sse)).ln() + TWENTIETH * parameters as f64;
             Move {
                 added,
                 promise,

@@ -39,6 +39,7 @@ use crate::model::declared::declared as baseline_term;
 use crate::model::structure::{FitTerm, Structure};
 use crate::problem::clock::Moment;
 use crate::problem::Prepared;
+use crate::scale::{HALF, LEVEL, NOISE};
 use crate::score::blocks::Regime;
 use crate::score::explains::integrates;
 use bank::Bank;
@@ -148,7 +149,7 @@ fn lead(data: &Prepared, fine: &Prepared, ledger: &Ledger) -> Option<f64> {
         };
         structure.terms.push(baseline_term("delay", data).ok()?);
         let (sse, _, delay) = glance(fine, &structure, model, 0.0)?;
-        let most = policy::HALF * f64::min(model.sse(data), first.sse(data));
+        let most = HALF * f64::min(model.sse(data), first.sse(data));
         (-delay * data.rate >= 1.0 && sse <= most).then_some(-delay)
     };
     let found = of(&ledger.declared);
@@ -158,7 +159,7 @@ fn lead(data: &Prepared, fine: &Prepared, ledger: &Ledger) -> Option<f64> {
 
 /// Whether the residual of a model on the fit segment is noise.
 pub(crate) fn is_at_noise(data: &Prepared, model: &Solution) -> bool {
-    model.rmse.fit <= policy::AT_FLOOR * data.noise_floor
+    model.rmse.fit <= NOISE * data.noise_floor
 }
 
 /// Whether the blocks are long enough to test the residual, and its correlation time \[s\].
@@ -198,5 +199,5 @@ pub(crate) fn tests(data: &Prepared, solution: &Solution) -> (Regime, f64) {
     asked_of(data, solution, |linear| {
         (linear.regime, linear.prices.level)
     })
-    .unwrap_or((Regime::Effect, policy::LEVEL))
+    .unwrap_or((Regime::Effect, LEVEL))
 }

@@ -1,6 +1,5 @@
 //! Columns of the present model, and the target of each set without some of its stages.
 
-use super::bank::on_line;
 use crate::fit::Solution;
 use crate::model::structure::Role;
 use crate::problem::{Prepared, Stretch};
@@ -36,7 +35,7 @@ impl Present {
         let table = (next..columns.len()).collect();
         let mut free = Vec::new();
         for ((f, &value), tangent) in now.free.iter().zip(&now.values).zip(&now.tangents) {
-            let slope = f.range.slope(on_line(f.range, value));
+            let slope = f.range.slope(f.range.on_line(value));
             free.push(columns.len());
             let place = f.role.term().and_then(|id| now.structure.terms.place(id));
             match place {

@@ -19,6 +19,7 @@ use crate::model::kind::is_stage;
 use crate::model::structure::{FitTerm, Free, Role, Structure};
 use crate::model::Table;
 use crate::problem::Prepared;
+use crate::scale::{HALF, PART, TWENTIETH};
 use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
 use crate::score::tones::may_be_of_the_motion;
@@ -26,8 +27,6 @@ use std::sync::Arc;
 
 /// Maximum number of alternatives to one name that are refitted.
 const RIVALS: usize = 8;
-/// A candidate is refitted if, to first order, it reaches this share of the rule for alternatives.
-const NEARLY: f64 = 0.95;
 /// Starts of the refit of an alternative: its trial shapes and the linear step.
 const STARTS: usize = 2;
 
@@ -269,8 +268,7 @@ impl Search<'_> {
                     p: Vec::new(),
                 };
                 let grids = (self.coarse, context.moved);
-                let wanted =
-                    |rough: &Priced| rough.sse / context.scale <= policy::HOPELESS_RIVAL * allowed;
+                let wanted = |rough: &Priced| rough.sse / context.scale <= (1.0 + HALF) * allowed;
                 let real = linear.refit(grids, &swap, STARTS, wanted)?;
                 let left = real.sse / context.scale;
                 let candidate = linear.groups[g].candidate()?;
@@ -412,7 +410,7 @@ impl Context<'_, '_> {
             }
             let gain = unit * swept.gain(&group.columns, target);
             // The gain at a trial shape predicts the gain at the fitted shape only roughly.
-            let nearly = gain >= NEARLY * policy::RIVAL_SHARE * (sse - self.full);
+            let nearly = gain >= (1.0 - TWENTIETH) * (1.0 - PART) * (sse - self.full);
             let was = known.is_some_and(|e| e.siblings.iter().any(|s| s.is_like(&candidate)));
             let stages = is_stage(&own.effect) && is_stage(&candidate.term.effect);
             if !nearly && !was && !stages {

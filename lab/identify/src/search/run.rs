@@ -15,6 +15,7 @@ use crate::ledger::{reject, Gate, Rejection};
 use crate::model::catalogue::Candidate;
 use crate::problem::clock::Moment;
 use crate::problem::Prepared;
+use crate::scale::{is_raised, PART, QUARTER, TWENTIETH};
 use crate::score::blocks::Regime;
 use crate::score::left_out::on_blocks;
 use std::sync::Arc;
@@ -23,10 +24,6 @@ use std::sync::Arc;
 pub(super) const FALLEN: f64 = 1e-3;
 /// Maximum number of turns: the search ends in any case.
 const TURNS: usize = 40;
-/// Starts of a refit: the trial shapes, the linear step, and two other hystereses. Without
-/// the last two, once the model has names, a damper's record ends with six names instead of
-/// four, and with a held-out error of 7.4 % instead of 6.1 %.
-pub(super) const STARTS: usize = 4;
 
 /// The record that a search keeps of an added member.
 pub(super) struct Entry {
@@ -167,7 +164,7 @@ impl<'a> Search<'a> {
             return false;
         };
         let gained = (now.sse(self.data) / next.sse(self.data)).ln();
-        if gained < policy::LEAST || next.rmse.selection > policy::NOT_WORSE * now.rmse.selection {
+        if gained < TWENTIETH || is_raised(next.rmse.selection, now.rmse.selection) {
             return false;
         }
         self.now = Arc::new(next);
@@ -303,8 +300,8 @@ impl<'a> Search<'a> {
             let promising = self.phase == Phase::Fewer
                 || tried.iter().any(is_part)
                 || linear.is_one_stage(one)
-                || one.promise <= least + policy::EQUAL
-                || one.promise <= moves[0].promise + policy::EQUAL;
+                || one.promise <= least + PART
+                || one.promise <= moves[0].promise + PART;
             if named && !promising {
                 continue;
             }
@@ -313,7 +310,9 @@ impl<'a> Search<'a> {
             }
             self.visited.push(linear.identities(&one.kept, &one.added));
             let grids = (self.coarse, &standing.moved);
-            let refit = linear.refit(grids, one, STARTS, |rough| rough.j < j + policy::HOPELESS);
+            let refit = linear.refit(grids, one, usize::MAX, |rough| {
+                rough.j < j + policy::HOPELESS
+            });
             if let Some(real) = refit {
                 // A curve sets no bound for names: names are refitted before a curve may win.
                 if real.structure.table.is_none() || linear.has_table() {
@@ -339,7 +338,7 @@ impl<'a> Search<'a> {
             return false;
         };
         if linear.takes_names_out(&best.made) {
-            if next.rmse.selection > policy::NOT_WORSE * self.now.rmse.selection {
+            if is_raised(next.rmse.selection, self.now.rmse.selection) {
                 return false;
             }
         } else if !best.made.added.is_empty() {
@@ -416,9 +415,8 @@ impl<'a> Search<'a> {
 /// The simplest of the moves whose criterion equals the best one's and that add no more members.
 fn chosen(tried: &[Tried]) -> Option<&Tried> {
     let best = tried.first()?;
-    let equal = |t: &&Tried| {
-        t.j <= best.j + policy::EQUAL && t.made.added.len() <= best.made.added.len().max(1)
-    };
+    let equal =
+        |t: &&Tried| t.j <= best.j + PART && t.made.added.len() <= best.made.added.len().max(1);
     tried
         .iter()
         .filter(equal)
@@ -456,8 +454,8 @@ pub(super) fn gates(
         Regime::Blocks => policy::LARGE,
         Regime::Effect => policy::LARGE_UNTESTED,
     };
-    let worse = new.rmse.selection > policy::NOT_WORSE * old.rmse.selection;
-    if taken > 0.0 && carried < policy::CARRIED * taken && (taken < large || worse) {
+    let worse = is_raised(new.rmse.selection, old.rmse.selection);
+    if taken > 0.0 && carried < QUARTER * taken && (taken < large || worse) {
         return Err(Gate::StopCheck);
     }
     match on_blocks(data, old, new, regime) {

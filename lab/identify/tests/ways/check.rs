@@ -2,10 +2,11 @@
 
 use crate::rig::{check, nrmse, Closed};
 use bowden::model::Source;
-use bowden_lab::check::{Given, Seen, Verdict, HOLDS, NOISE};
+use bowden_lab::check::{Given, Seen, Verdict, HOLDS};
 use bowden_lab::export::ShapeFile;
 use bowden_lab::facts::Finding;
 use bowden_lab::model::Variable;
+use bowden_lab::scale::NOISE;
 use bowden_synth::{Base, Mode, Planted, Recipe};
 use rayon::prelude::*;
 

@@ -127,18 +127,20 @@ fn the_page_of_the_effects_is_the_catalogue() {
     check("effects.md", &page);
 }
 
-/// The constants of the search, with their documentation.
+/// The marks of all rooms and the constants of the search, with their documentation.
+const SCALE: &str = include_str!("../../../../identify/src/scale.rs");
 const POLICY: &str = include_str!("../../../../identify/src/search/policy.rs");
 
 #[test]
 fn the_page_of_the_thresholds_is_their_constants() {
     let mut page = String::from(
-        "# Thresholds of the search\n\nThe constants in `lab/identify/src/search/policy.rs`. The \
-         planted records are those of `operating_characteristics`. SSE is the squared error on \
-         the fit segment.\n\n| constant | value | meaning and reason |\n|---|---|---|\n",
+        "# Thresholds\n\nThe marks in `lab/identify/src/scale.rs`, which every room of the lab shares, \
+         and the constants of the search in `lab/identify/src/search/policy.rs`. The planted \
+         records are those of `operating_characteristics`. SSE is the squared error on the fit \
+         segment.\n\n| constant | value | meaning and reason |\n|---|---|---|\n",
     );
     let mut words: Vec<&str> = Vec::new();
-    for line in POLICY.lines() {
+    for line in SCALE.lines().chain(POLICY.lines()) {
         if let Some(text) = line.strip_prefix("///") {
             words.push(text.trim());
         } else if let Some(rest) = line.strip_prefix("pub const ") {

@@ -13,6 +13,7 @@ mod model;
 mod strengthen;
 mod trajectory;
 
+use crate::scale::NOISE;
 pub use strengthen::{strengthen, unidentified};
 pub use trajectory::{trajectory, Kind, Trajectory, Way};
 
@@ -64,12 +65,7 @@ pub struct Aim {
     pub left_then: f64,
 }
 
-/// An experiment separates two effects if the wrong term has at least this multiple of the present
-/// error on it, and this multiple of its error on the record. The error then rises by half (the
-/// root of 1 + 1.2²), which no choice of blocks can hide.
-const SEPARATES: f64 = 1.2;
-
-/// The part of a contribution that its alternative cannot imitate.
+/// What stays of a contribution once its rival has imitated what it can.
 struct Apart {
     correlation: f64,
     /// Rms in the output's unit.
@@ -149,7 +145,7 @@ pub fn separate(data: &Prepared, round: &Round) -> Option<Experiment> {
             let own = placed.beside(named)?;
             for (term, size, now) in &rivals {
                 let then = pair((&own, gain), (&placed.beside(term)?, *size))?;
-                if then.left.is_nan() || then.left < SEPARATES * noise.max(now.left) {
+                if then.left.is_nan() || then.left < NOISE * noise.max(now.left) {
                     continue;
                 }
                 worst = worst.min(then.left);

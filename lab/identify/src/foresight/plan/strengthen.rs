@@ -9,12 +9,7 @@ use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::model::structure::Role;
 use crate::problem::Prepared;
-
-/// A parameter is an aim where it would show this many times as strongly, and at least as many times as
-/// its interval is too wide: what changes no answer is no reason to record again ...
-const WORTH: f64 = 1.2;
-/// ... and where nothing is known of its interval, this many times. A choice.
-const TWICE: f64 = 2.0;
+use crate::scale::NOISE;
 
 /// Rms per row of the part of a column that the other columns cannot imitate, and the share that
 /// they can imitate.
@@ -51,7 +46,8 @@ fn open(data: &Prepared, solution: &Solution) -> (usize, Vec<Open>) {
         .map(|(place, p)| Open {
             place,
             name: p.name,
-            needs: p.too_wide.unwrap_or(TWICE).max(WORTH),
+            // What changes no answer is no reason to record again; of an unknown interval twice is a choice.
+            needs: p.too_wide.unwrap_or(2.0).max(NOISE),
         });
     (count, open.collect())
 }

@@ -5,22 +5,17 @@
 //! error are known for every amplitude `a` without a fit. Other candidates, refits and gates are
 //! not considered here, only in the complete trials.
 
-use super::needed;
 use super::planted::Trials;
+use super::{needed, STEPS};
 use crate::fit::projection::{rows, Span};
 use crate::fit::Solution;
 use crate::problem::Prepared;
+use crate::scale::TWENTIETH;
 use crate::score::blocks::{blocks, sign_flip_p, Regime, BLOCKS};
+use crate::search::policy::EXCITED;
 use crate::search::tests;
 use nalgebra::DVector;
 
-/// Share of the squared error below which no gate lets an effect pass; without p-values
-/// it has to be twice that.
-const LEAST_SHARE: f64 = 0.05;
-/// Of the varying part of a column less than this left: not excited, as in the scan.
-const EXCITED: f64 = 1e-4;
-/// Halvings of the range of amplitudes, eight decades wide: to 2 %.
-const HALVINGS: usize = 10;
 /// The smallest amplitude, as a share of the largest.
 const SMALLEST: f64 = 1e-8;
 
@@ -80,7 +75,7 @@ impl Screen {
             return Outcome::Never;
         }
         let (mut low, mut high) = ((SMALLEST * self.largest).ln(), self.largest.ln());
-        for _ in 0..HALVINGS {
+        for _ in 0..STEPS {
             let middle = 0.5 * (low + high);
             if shown(middle.exp()) {
                 high = middle;
@@ -96,8 +91,9 @@ impl Screen {
         let score = a * norm + column.dot(residual);
         let sse = residual.norm_squared() + 2.0 * a * column.dot(residual) + a * a * norm;
         let share = score * score / norm / sse;
+        // No gate lets a smaller share pass; without p-values it has to be twice that.
         if self.regime == Regime::Effect {
-            return share >= 2.0 * LEAST_SHARE;
+            return share >= 2.0 * TWENTIETH;
         }
         let mut scores = [0.0; BLOCKS];
         for (slot, block) in scores.iter_mut().zip(&self.blocks) {
@@ -106,6 +102,6 @@ impl Screen {
                 .map(|k| column[k] * (residual[k] + a * column[k]));
             *slot = part.sum();
         }
-        share >= LEAST_SHARE && sign_flip_p(&scores) <= self.level
+        share >= TWENTIETH && sign_flip_p(&scores) <= self.level
     }
 }

@@ -5,14 +5,11 @@
 //! [`Effect::contributions`](bowden::effect::Effect::contributions) bit for bit: no sum is
 //! reordered, and no product is fused with a sum.
 
+use crate::problem::filter::{ABREAST, BLOCK};
 use crate::problem::is_silent;
 use bowden::effect::Effect;
 use bowden::Real;
 
-/// Columns that go through a stage abreast.
-const ABREAST: usize = 8;
-/// Samples after which a stage is asked whether it is silent.
-pub(super) const BLOCK: usize = 256;
 /// No sum of a few numbers below this overflows, nor does its product
 /// with a gain below this, over any step that is one.
 const SMALL: f64 = 1e100;

@@ -272,9 +272,9 @@ pub(crate) fn weighted<'a>(
     sum
 }
 
-/// Step of the hysteresis state in a difference quotient; for a smooth column, also its relative
-/// error.
-const ETA_STEP: f64 = 1e-7;
+/// Step of a difference quotient, in the hysteresis state or as a share of a parameter's scale. For a
+/// smooth column its error is about this share, plus 1e-9 of its size from rounding.
+const STEP: f64 = 1e-7;
 
 /// The slopes of a term's column in the hysteresis' free parameters, through eta.
 ///
@@ -290,10 +290,10 @@ fn eta_slopes(
     let in_eta = match term.effect.info().memory || sensitivities.is_empty() {
         true => None,
         false => {
-            let moved: Vec<f64> = eta.iter().map(|e| e + ETA_STEP).collect();
+            let moved: Vec<f64> = eta.iter().map(|e| e + STEP).collect();
             let mut up = effect_column(data, term, &moved)?;
             for (up, here) in up.iter_mut().zip(column.values()) {
-                *up = (*up - here) / ETA_STEP;
+                *up = (*up - here) / STEP;
             }
             Some(up)
         }
@@ -324,7 +324,7 @@ fn along(
     if largest == 0.0 {
         return Some(sensitivity.map(|_| 0.0));
     }
-    let h = ETA_STEP / largest;
+    let h = STEP / largest;
     let range = sensitivity.range();
     let mut slope = Vec::with_capacity(range.len());
     for (record, piece) in data.pieces.iter().enumerate() {

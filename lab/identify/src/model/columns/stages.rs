@@ -1,8 +1,9 @@
 //! Output stages: they act on the sum of all columns, so each acts on every column alike.
 
-use super::abreast::{self, BLOCK};
+use super::abreast;
 use super::{weighted, RawColumns};
 use crate::model::structure::{FitTerm, Free, Role, Terms};
+use crate::problem::filter::BLOCK;
 use crate::problem::{is_silent, Prepared, Stretch};
 use bowden::effect::{Effect, EffectState, Inputs};
 use std::cell::Cell;

@@ -1,12 +1,8 @@
 //! The derivative of an effect's column with respect to one of its parameters.
 
-use super::{effect_column, effect_on};
+use super::{effect_column, effect_on, STEP};
 use crate::model::structure::{FitTerm, Range, Role, TermId};
 use crate::problem::{Prepared, Stretch};
-
-/// Step of a difference quotient, as a share of the parameter's scale. For a smooth column its
-/// error is about this share, plus 1e-9 of its size from rounding.
-const STEP: f64 = 1e-7;
 
 /// A parameter of a term that its column depends on.
 pub(super) enum Variation {
