@@ -81,7 +81,7 @@ impl HandOver {
     /// With a play in front of the hysteresis, if it helps.
     fn calmed(&self, records: &[Record], data: &Prepared) -> Result<Option<Calmed>, String> {
         let noise = records.iter().map(|record| noise(&record.input.values));
-        let half_width = HALF * SWING * noise.fold(0.0, f64::max);
+        let half_width = 0.5 * SWING * noise.fold(0.0, f64::max);
         if !self.is_off() || !self.fitted.solution.structure.hysteresis || half_width <= 0.0 {
             return Ok(None);
         }

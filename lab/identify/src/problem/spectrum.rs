@@ -1,7 +1,7 @@
 //! Spectra: of the input, from which the default cut-off is taken, and of the fit segment.
 
 use super::{Prepared, ZeroPhase};
-use crate::scale::{HALF, QUARTER, SWING, TRACE};
+use crate::scale::{QUARTER, SWING, TRACE};
 use bowden_fourier::{Complex, Transform};
 
 /// The smoother may change the input by at most this share of its half-range: the hysteresis and a
@@ -78,7 +78,7 @@ fn rounded(signal: &[f64], rate: f64, cutoff: f64) -> Option<Corner> {
     match most > SWING * noise {
         true if share > ROUNDED => Some(Corner::Rare),
         // Of the range a trace is not sensor noise, however often it occurs.
-        false if HALF * share > TRACE => Some(Corner::Large),
+        false if 0.5 * share > TRACE => Some(Corner::Large),
         _ => None,
     }
 }

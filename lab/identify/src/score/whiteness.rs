@@ -64,8 +64,8 @@ fn is_level(densities: &[f64]) -> bool {
         below += density;
         farthest = farthest.max((below / sum - (k + 1) as f64 / count).abs());
     }
-    // Kolmogorov's distribution of the distance, but for its smaller terms.
-    farthest <= (-HALF * (HALF * LEVEL).ln() / count).sqrt()
+    // The first term of Kolmogorov's distribution.
+    farthest <= (-(LEVEL / 2.0).ln() / (2.0 * count)).sqrt()
 }
 
 #[cfg(test)]
