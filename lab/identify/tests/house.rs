@@ -60,15 +60,15 @@ const CONSTANTS: [(&str, usize); 18] = [
     ("identify/fit", 6),
     ("identify/foresight", 6),
     ("identify/model", 8),
-    ("identify/problem", 17),
+    ("identify/problem", 16),
     ("identify/scale", 9),
     ("identify/score", 15),
     ("identify/search", 30),
-    ("page", 5),
-    ("record", 99),
-    ("rig", 6),
-    ("synth", 10),
-    ("trials", 50),
+    ("page", 3),
+    ("record", 33),
+    ("rig", 3),
+    ("synth", 6),
+    ("trials", 25),
 ];
 
 /// The folder of a package of the lab.
