@@ -79,6 +79,7 @@ fn the_first_tutorial_runs_as_it_is_written() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn the_second_tutorial_runs_as_it_is_written() {
     let files = ["report.html", "trace.csv", "model.toml", "model.vector.csv"];
     run(SECOND, &files);

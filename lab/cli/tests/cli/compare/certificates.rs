@@ -2,12 +2,22 @@
 
 use super::{bowden, json};
 use crate::shell::Folder;
+use serde_json::Value;
+use std::sync::LazyLock;
+
+/// The certificates of the paper's gains.
+static CERTIFIED: LazyLock<Value> = LazyLock::new(|| json(&["certify", "--json"]));
+/// The same on a terminal.
+static PRINTED: LazyLock<String> = LazyLock::new(|| printed(&["certify", "--verbose"]));
+
+fn printed(arguments: &[&str]) -> String {
+    String::from_utf8(bowden(arguments).stdout).unwrap()
+}
 
 #[test]
 fn theorem_1_is_vacuous_and_the_others_are_not() {
-    let report = json(&["certify", "--json"]);
-    assert_eq!(report["schema"], "bowden.certify/1");
-    let lines = report["certificates"].as_array().unwrap();
+    assert_eq!(CERTIFIED["schema"], "bowden.certify/1");
+    let lines = CERTIFIED["certificates"].as_array().unwrap();
     let of = |kind: &str| {
         lines
             .iter()
@@ -40,8 +50,7 @@ fn theorem_1_is_vacuous_and_the_others_are_not() {
 
 #[test]
 fn every_certificate_says_what_it_rests_on() {
-    let report = json(&["certify", "--json"]);
-    for line in report["certificates"].as_array().unwrap() {
+    for line in CERTIFIED["certificates"].as_array().unwrap() {
         if line["value"].is_f64() {
             assert!(line["assumptions"].as_array().unwrap().len() >= 3);
             assert_eq!(line["unit"], "N·m");
@@ -49,8 +58,7 @@ fn every_certificate_says_what_it_rests_on() {
             assert!(line["refused"].is_string());
         }
     }
-    let text = String::from_utf8(bowden(&["certify", "--verbose"]).stdout).unwrap();
-    assert!(text.contains("no dynamics between u and y"));
+    assert!(PRINTED.contains("no dynamics between u and y"));
 }
 
 #[test]
@@ -63,8 +71,7 @@ fn the_rms_certificate_holds_on_the_rig() {
 
 #[test]
 fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_rather_low() {
-    let share = |arguments: &[&str]| -> Option<f64> {
-        let report = json(&[&["certify", "--json"], arguments].concat());
+    let share = |report: &Value| -> Option<f64> {
         assert_eq!(report["tolerance"]["law"], "pi-observer");
         assert!(!report["tolerance"]["assumptions"]
             .as_array()
@@ -72,22 +79,30 @@ fn an_observers_loop_is_stable_for_a_data_sheet_that_is_off_and_its_own_wn_is_ra
             .is_empty());
         report["tolerance"]["share"].as_f64()
     };
-    let own = share(&[]).unwrap();
+    let own = share(&CERTIFIED).unwrap();
     // The tests of `bowden_bound` compare such figures with simulated plants.
     assert!((0.1..0.2).contains(&own), "{own}");
     let folder = Folder::new();
     let with = |observer: &str| {
         let path = folder.root().join("setup.toml");
         std::fs::write(&path, observer).unwrap();
-        share(&["--gains", path.to_str().unwrap()])
+        share(&json(&[
+            "certify",
+            "--json",
+            "--gains",
+            path.to_str().unwrap(),
+        ]))
     };
     let low = with("[observer]\nnatural_frequency = 21.0\n").unwrap();
     let high = with("[observer]\nnatural_frequency = 28.0\n").unwrap();
     assert!(low > own && own > high, "{low} {own} {high}");
     // Too much integral gain for the nominal loop.
     assert_eq!(with("[observer]\nk_i = 3000.0\n"), None);
-    let text = String::from_utf8(bowden(&["certify"]).stdout).unwrap();
-    assert!(text.contains("stable for every plant within"), "{text}");
+    assert!(
+        PRINTED.contains("stable for every plant within"),
+        "{}",
+        *PRINTED
+    );
 }
 
 /// The rig itself, with the joint's inertia and the cable before its hysteresis, where every number
@@ -120,27 +135,30 @@ fn the_rig_follows_where_its_data_sheet_is_off_in_the_worst_direction() {
 #[test]
 fn what_is_learned_converges_for_a_data_sheet_that_is_off() {
     let folder = Folder::new();
-    let with = |setup: &str| {
-        let path = folder.root().join("setup.toml");
-        std::fs::write(&path, setup).unwrap();
-        let report = json(&["certify", "--json", "--gains", path.to_str().unwrap()]);
+    let share = |report: &Value| {
         assert_eq!(report["learning"]["kind"], "convergence");
         report["learning"]["share"].as_f64()
     };
-    let text = |arguments: &[&str]| {
-        let arguments = [&["certify"], arguments].concat();
-        String::from_utf8(bowden(&arguments).stdout).unwrap()
+    let with = |setup: &str| {
+        let path = folder.root().join("setup.toml");
+        std::fs::write(&path, setup).unwrap();
+        share(&json(&[
+            "certify",
+            "--json",
+            "--gains",
+            path.to_str().unwrap(),
+        ]))
     };
-    let own = with("").unwrap();
+    let own = share(&CERTIFIED).unwrap();
     assert!((0.05..0.15).contains(&own), "{own}");
     // A shorter lead and a faster filter leave little room; no lead leaves none.
     let tight = with("[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
     assert!(tight < own, "{tight} {own}");
     assert_eq!(with("[learning]\nlead = 0.0\nfrequency = 25.0\n"), None);
-    assert!(text(&[]).contains("converges for every plant within"));
+    assert!(PRINTED.contains("converges for every plant within"));
     let path = folder.root().join("setup.toml");
     std::fs::write(&path, "[learning]\nlead = 0.008\nfrequency = 25.0\n").unwrap();
-    let tight = text(&["--gains", path.to_str().unwrap()]);
+    let tight = printed(&["certify", "--gains", path.to_str().unwrap()]);
     assert!(
         tight.contains("converges for the rig's own plant"),
         "{tight}"

@@ -242,5 +242,4 @@ fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {
         line.contains("without --gains: `bowden certify FILE`"),
         "{line}"
     );
-    assert!(bowden(&["certify"]).status.success());
 }

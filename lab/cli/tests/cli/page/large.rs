@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 /// 1000 s at 1 kHz, whose cut-off leaves a grid of the same length, with one spike.
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn a_million_samples_make_a_page_below_two_megabytes_that_keeps_its_spike() {
     // Inside of a column of pixels, not at its start.
     const SPIKE: usize = 876_543;

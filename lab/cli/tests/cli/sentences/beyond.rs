@@ -86,6 +86,7 @@ fn cable(gain: f64, friction: f64, of_tension: f64) -> Rows {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn a_lead_of_a_model_that_leaves_much_is_no_question_of_clocks_alone() {
     let closed = slack(1.0, 0.3).close(&[]);
     closed.says(&["the same clock?", "lacks an effect that looks like a lead"]);
@@ -177,6 +178,7 @@ const EIGHT: [(f64, f64); 8] = [
 ];
 /// What slips at a stretch that a small motion does not reach remembers what came before it.
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn what_is_remembered_of_the_motion_before_the_record_does_not_blame_the_rig_alone() {
     let folder = Folder::new();
     let record = maxwell(&EIGHT, &TONES, 40).write(&folder, "first.csv");

@@ -52,6 +52,7 @@ fn asks(closed: &Closed, what: &str, column: &str) {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn a_channel_that_counts_the_other_way_in_one_file_is_asked_about() {
     let (closed, _folder) = halves(|rows| turn(rows, PHI_P));
     asks(&closed, "reversed", "phi_p");
@@ -60,6 +61,7 @@ fn a_channel_that_counts_the_other_way_in_one_file_is_asked_about() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn two_channels_in_each_others_place_in_one_file_are_asked_about() {
     let (closed, _folder) = halves(|rows| rows.rows.iter_mut().for_each(|r| r.swap(PHI_P, PHI_D)));
     asks(&closed, "swapped", "phi_p");
@@ -70,6 +72,7 @@ fn two_channels_in_each_others_place_in_one_file_are_asked_about() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn files_with_equal_channels_are_asked_about_nothing() {
     let (closed, _folder) = halves(|_| {});
     assert_eq!(closed.finding("logged-differently"), None);

@@ -40,6 +40,7 @@ fn notes(closed: &Closed) -> Vec<&str> {
 
 /// About a hundred and twenty steps over the stroke.
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn names_that_the_steps_of_an_encoder_explain_are_not_firm() {
     let closed = seen_in_steps_of(0.15);
     let rounds = closed.json["terms"].as_array().unwrap();
