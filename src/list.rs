@@ -97,7 +97,7 @@ where
     }
 }
 
-/// At most `N` items, and the default in place of the others.
+/// At most `N` items, and the default instead of the others.
 pub(crate) fn padded<'de, X, D, const N: usize>(from: D) -> Result<[X; N], D::Error>
 where
     X: Deserialize<'de> + Default,
