@@ -124,7 +124,7 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
     let terms: Vec<Term<f64>> = terms.collect::<Result<_, String>>()?;
     match terms.len() > MOST_UNDECLARED {
         true => Err(format!(
-            "{} terms: the rig holds at most {MOST_UNDECLARED}",
+            "{} terms are too many: the rig accepts at most {MOST_UNDECLARED}",
             terms.len()
         )),
         false => Ok(terms),

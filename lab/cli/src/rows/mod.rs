@@ -54,7 +54,7 @@ impl Rows {
     pub fn check_unused(&self) -> Result<(), Failure> {
         if let Some(out) = &self.out {
             return Err(format!(
-                "--out {}: only --glob writes rows; --model-out FILE.toml writes the model",
+                "--out {}: needs --glob; to write the model, use --model-out FILE.toml",
                 out.display()
             ));
         }

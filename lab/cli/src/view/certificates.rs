@@ -91,7 +91,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
         assumptions(&mut out, all, width);
         return out;
     }
-    let hint = ["every bound rests on assumptions about the plant: -v lists them"];
+    let hint = ["every bound depends on assumptions about the plant, which -v lists"];
     block(&mut out, width, "Note", hint);
     block(
         &mut out,

@@ -136,7 +136,7 @@ const NOTES: [&str; 4] = [
     "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
     "Found terms: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
     "Third regressor: the found terms enter the adaptive law with their bench values as priors. The baseline for comparison is the law without these terms.",
-    "Quiet: the loop has a fifth of the gains of Nguyen et al. (2018). This loop shows improvements that the full gains hide.",
+    "Quiet: a loop with a fifth of the gains of Nguyen et al. (2018), which shows improvements that the full gains hide.",
 ];
 
 /// Schema `bowden.compare/1`.

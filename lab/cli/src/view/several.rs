@@ -136,7 +136,7 @@ fn words(one: &Across) -> String {
     };
     let others = || named(&|grade| grade.is_none());
     match (one.is_joint, some) {
-        (true, 0) => format!("{}: no file alone, only the joint fit", one.title),
+        (true, 0) => format!("{}: in the joint fit only, in no file alone", one.title),
         (true, n) if n == all => format!("{}: each file alone, {high}", one.title),
         (true, n) => format!(
             "{}: {n} of {all} files alone, {high}; not {}",
@@ -145,7 +145,7 @@ fn words(one: &Across) -> String {
         ),
         (false, _) => {
             let own = named(&|grade| grade == Some(Grade::High));
-            format!("{}: {own} alone, not the joint fit", one.title)
+            format!("{}: {own} alone, not in the joint fit", one.title)
         }
     }
 }

@@ -166,7 +166,7 @@ fn headline(facts: &Facts) -> String {
         }
         (Verdict::DefectiveRecord, _) => "DEFECTIVE RECORD: repeat the measurement".to_owned(),
         (Verdict::UnderExcited, 0) => {
-            "UNDER-EXCITED RECORD: too little motion for an answer".to_owned()
+            "UNDER-EXCITED RECORD: too little motion to find a missing term".to_owned()
         }
         (Verdict::UnderExcited, _) => format!("UNDER-EXCITED RECORD: {main} may be missing"),
         (Verdict::UnmodelledDependence, _) if facts.lacks.is_empty() => {
@@ -297,12 +297,12 @@ fn errors(facts: &Facts, report: Report) -> String {
     }
     let mut out = rows.text(width);
     if !facts.beyond.is_empty() {
-        block(&mut out, width, "Note", ["not delivered: on half-records that were excluded from the fit, the model is as good without the term"]);
+        block(&mut out, width, "Note", ["not delivered: the model is as good without the term, on blocks that were left out of the fit"]);
     }
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {
         let until = match fell {
-            0 => "the first term already raises it".to_owned(),
+            0 => "the error rises from the first term on".to_owned(),
             n => format!("the error falls up to term {n}"),
         };
         block(
@@ -352,7 +352,7 @@ fn coefficient(size: &Size) -> String {
 }
 
 /// The remark on a coefficient whose interval contains zero.
-const SIZE_UNKNOWN: &str = "acts, size unknown";
+const SIZE_UNKNOWN: &str = "present, size unknown";
 
 fn holds_zero(parameter: &Parameter) -> bool {
     parameter

@@ -52,8 +52,8 @@ fn candidates(data: &Prepared, ledger: &Ledger) -> String {
     };
     let [what, which] = terms;
     match data.pieces.len() {
-        0 | 1 => format!(" {what}: this record does not show which {which}. Record another motion and identify both records together."),
-        _ => format!(" {what}: these files do not show which {which}."),
+        0 | 1 => format!(" {what}, but this record cannot show which {which}. Record another motion and identify both records together."),
+        _ => format!(" {what}, but these files cannot show which {which}."),
     }
 }
 

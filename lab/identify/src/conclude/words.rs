@@ -44,7 +44,7 @@ impl Finding {
                     terms => format!(" The search added {}.", terms.join(", then ")),
                 };
                 format!(
-                    "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. The two segments differ: do not use this model on other data. Has the rig or the sensor of `{output}` changed?{added}",
+                    "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. Do not use this model on other data. Has the rig or the sensor of `{output}` changed between the two segments?{added}",
                     percent(*fit),
                     percent(*held_out),
                 )
@@ -63,7 +63,7 @@ impl Finding {
             ),
             Self::HeldOutRises { ratio, before, after, terms, falls_up_to } => {
                 let mut text = format!(
-                    "The held-out error rises {ratio:.1}-fold, {}: do not use this model on other data.",
+                    "The held-out error rises by a factor of {ratio:.1}, {}: do not use this model on other data.",
                     from_to((*before, *after))
                 );
                 if !terms.is_empty() {
@@ -115,7 +115,7 @@ impl Finding {
                 format!("The record has too few independent stretches for a test: {names}.")
             }
             Self::PoorModel { error } => {
-                format!("A model with an error of {} of the output is poor.", percent(*error))
+                format!("The model is poor: its error is {} of the output.", percent(*error))
             }
             // About the record.
             Self::DefectiveMeasurement { defects } => {
@@ -135,7 +135,7 @@ impl Finding {
                     ends(*here)
                 )
             }
-            Self::MotionUnseen { input } => format!("How `{input}` moved while it was not measured is unknown, and the effect of that motion persists in the hysteresis."),
+            Self::MotionUnseen { input } => format!("The motion of `{input}` during the gap is unknown, and its effect persists in the hysteresis."),
             Self::FilesOfSeveralRigs { together, own } => format!(
                 "These files do not seem to come from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
                 100.0 * together,
@@ -230,7 +230,7 @@ impl Finding {
             }
             Self::RangesExceeded { ranges } => {
                 let ranges: Vec<String> = ranges.iter().map(|one| format!("the {} of {}", one.quantity, one.channel)).collect();
-                format!("The record exceeds the model's ranges in {}: there the model extrapolates.", ranges.join(", "))
+                format!("The record exceeds the model's ranges in {}, where the model extrapolates.", ranges.join(", "))
             }
             Self::InputContributesLittle { input, share } => format!("The model hardly depends on `{input}`, which contributes only {} of the output of this record: this validation would hardly show a change of that part of the transmission.", percent(*share)),
         }

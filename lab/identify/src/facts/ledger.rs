@@ -153,9 +153,9 @@ impl UnknownFacts {
             curve: curve(&done.data, &done.solution),
             kept: match done.solution.structure.table.as_ref().and_then(Table::over) {
                 Some(_) => {
-                    "the final model contains the curve; the exported model contains one with fewer points"
+                    "the final model contains the curve; the exported model approximates it with fewer points"
                 }
-                None => "the final model contains the curve; the exported model does not",
+                None => "the final model contains the curve, but the exported model does not",
             },
             before: unknown.before,
             after: unknown.after,

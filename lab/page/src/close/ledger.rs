@@ -11,7 +11,7 @@ use bowden_lab::facts::{
 use maud::{html, Markup};
 
 /// The remark on a coefficient whose interval contains zero.
-const SIZE_UNKNOWN: &str = "acts, size unknown";
+const SIZE_UNKNOWN: &str = "present, size unknown";
 
 fn grade(grade: Grade) -> &'static str {
     match grade {

@@ -216,7 +216,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         1 => line!(out, "/// Call it once per sample."),
         _ => line!(
             out,
-            "/// Call it on one sample in {every}: the plant must respond within one step."
+            "/// Call `step` on one sample in {every} only: the plant must respond within one step of the law."
         ),
     }
     line!(out, "#[allow(dead_code)]");

@@ -84,7 +84,7 @@ fn a_held_out_part_that_is_much_quieter_is_told_with_both_standard_deviations() 
     // What the hysteresis remembers of the large strokes is larger than the small ones.
     assert_eq!(closed.verdict(), "not-transferable");
     closed.says(&[
-        "The two segments differ: do not use this model on other data",
+        "Do not use this model on other data.",
         "The output moves 27 times as much on the fit segment as on the held-out segment",
     ]);
 }

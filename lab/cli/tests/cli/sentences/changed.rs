@@ -46,7 +46,7 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
     closed.says(&[
         "The model does not transfer: its error is ",
         "from 21.",
-        "do not use",
+        "Do not use",
     ]);
     let sound = spring((99.0, 0.0), 0).close(&[]);
     assert!(
@@ -57,6 +57,7 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
 }
 
 #[test]
+#[ignore = "slow: bash .ci/run conclusions"]
 fn an_output_that_comes_before_its_input_is_a_question_of_clocks() {
     let closed = spring((99.0, 0.0), 5).close(&[]);
     let lead = closed.finding("output-leads").unwrap();
@@ -70,7 +71,7 @@ fn motion_in_a_gap_is_said_to_act_on() {
     let mut rows = spring((99.0, 0.0), 0);
     rows.rows.drain(4000..4600);
     let closed = rows.close(&[]);
-    closed.says(&["How `x` moved while it was not measured is unknown"]);
+    closed.says(&["The motion of `x` during the gap is unknown"]);
     let sound = spring((99.0, 0.0), 0).close(&[]);
     assert!(!sound.sentence().contains("not measured"));
 }

@@ -58,11 +58,11 @@ fn a_model_that_misses_much_is_called_poor_and_by_how_much() {
     closed.says(&[
         "No effect in the catalogue explains the residual of the baseline model, ",
         " % of the output's standard deviation on the held-out segment.",
-        "A model with an error of ",
-        " of the output is poor.",
+        "The model is poor: its error is ",
+        " of the output.",
     ]);
     let closed = sound().close(&[]);
-    assert!(!closed.sentence().contains("is poor"));
+    assert!(!closed.sentence().contains("model is poor"));
 }
 
 /// The wrong cable is plugged in: a tone is a function of nothing measured.

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 // Motions that show several effects.
 const SLOW_STROKES: &str = "slow strokes over the whole range of position";
 const LOADS: &str = "the same motion under several loads";
-const HELD_END: &str = "motion of one end while the other is held, up to the largest load";
+const HELD_END: &str = "motion of one end with the other end held fixed, up to the largest load";
 
 /// Above this width the effect is a bent viscous term instead of dry friction.
 const SMOOTH_SIGN: Bounds = Bounds::Speed(1e-3, 0.15);
@@ -39,7 +39,7 @@ pub(super) const MOTION: &[Entry] = &[
         name: "drag-quadratic",
         rank: 13,
         tried: &[on(Place::Motion, AS_IT_IS)],
-        shown_by: "speeds up to the highest that the rig allows",
+        shown_by: "speeds up to the rig's maximum",
         ..PLAIN
     },
     Entry {

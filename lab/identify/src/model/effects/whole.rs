@@ -76,7 +76,7 @@ pub(super) const WHOLE: &[Entry] = &[
         declared: Declared::OnChannel(&[Path(1.0)]),
         bounds: &[Bounds::Path(0.01, 30.0)],
         of_the_record: Some("depends on the travel since the start of this record"),
-        shown_by: "many full strokes: a longer record",
+        shown_by: "a longer record, with many full strokes",
         ..PLAIN
     },
     Entry {
@@ -111,7 +111,7 @@ pub(super) const WHOLE: &[Entry] = &[
         of_the_record: Some(
             "a step at one moment of this record; the model describes the time after the step",
         ),
-        shown_by: "equally much motion before and after the step",
+        shown_by: "the same amount of motion before and after the step",
         ..PLAIN
     },
     Entry {
