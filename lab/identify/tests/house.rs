@@ -63,7 +63,7 @@ const CONSTANTS: [(&str, usize); 18] = [
     ("identify/problem", 16),
     ("identify/scale", 9),
     ("identify/score", 15),
-    ("identify/search", 30),
+    ("identify/search", 31),
     ("page", 3),
     ("record", 33),
     ("rig", 3),

@@ -10,7 +10,7 @@ use crate::fit::Solution;
 use crate::model::catalogue::Candidate;
 use crate::model::Variable;
 use crate::problem::{Prepared, Stretch};
-use crate::scale::{HALF, LEVEL, PART, TWENTIETH};
+use crate::scale::{LEVEL, TWENTIETH};
 use crate::score::blocks::{blocks, Regime};
 use crate::score::hats::HATS;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -110,14 +110,14 @@ impl Prices {
     /// The chi-square quantile divided by the number of independent values of the fit segment;
     /// without a test that number is one value every two correlation times.
     fn new(level: f64, regime: Regime, (band, values): (f64, f64), curve: f64) -> Self {
+        let (low, high) = policy::LEAST_UNTESTED;
         let of = |d: usize| {
             let chance = ChiSquared::new(d.max(1) as f64)
                 .map_or(f64::INFINITY, |c| c.inverse_cdf(1.0 - level));
             match regime {
                 // An effect that removes less than a twentieth of the SSE is not worth a term.
                 Regime::Blocks => TWENTIETH.max(chance / band),
-                // Without a test: a part of the SSE or more; what halves it is always worth a proposal.
-                Regime::Effect => (chance / values).clamp(-(1.0 - PART).ln(), -HALF.ln()),
+                Regime::Effect => (chance / values).clamp(low, high),
             }
         };
         Self {

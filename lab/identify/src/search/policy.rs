@@ -6,6 +6,12 @@
 
 use crate::scale::{HALF, PART};
 
+/// Range of the minimum reduction of ln SSE if the blocks are too short for a test.
+///
+/// At the lower end, coloured nulls with few independent values gave no term. The upper end is a
+/// choice: an effect that halves the SSE (0.69) is always worth a proposal.
+pub const LEAST_UNTESTED: (f64, f64) = (0.105, 0.69);
+
 /// Minimum squared norm of the residual of a unit-norm column after regression on the model.
 ///
 /// A choice: below this value, rounding and the errors of the model determine the coefficient.
