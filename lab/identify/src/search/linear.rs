@@ -230,6 +230,16 @@ impl<'a> Linear<'a> {
         linear
     }
 
+    /// Adds unfiltered columns that belong to no candidate; returns their places.
+    pub(super) fn add(&mut self, columns: &[Vec<f64>]) -> Vec<usize> {
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let filtered = self.seen.filtered_all(&columns).into_iter();
+        let place = |column: Vec<f64>| self.columns.place(Arc::new(column.into()));
+        let places = filtered.map(place).collect();
+        self.multiply();
+        places
+    }
+
     fn multiply(&mut self) {
         let (rows, blocks) = (&self.seen.split.fit, blocks(self.data));
         self.grams.extend(&self.columns.all, rows, &blocks);

@@ -174,15 +174,15 @@ fn independence(data: &Prepared, solution: &Solution) -> (Regime, f64) {
 fn asked_of<R>(
     data: &Prepared,
     solution: &Solution,
-    question: impl FnOnce(&Linear) -> R,
+    question: impl FnOnce(&mut Linear) -> R,
 ) -> Option<R> {
     let declared = solution.structure.terms.len();
     let fine = data.for_search(false);
     let seen = on(&fine, data, solution)?;
     let mut bank = Bank::new((data, &fine), solution);
     let price = policy::CURVE_AGAINST_NAMES;
-    let linear = Linear::new(&mut bank, (solution, seen), declared, price);
-    Some(question(&linear))
+    let mut linear = Linear::new(&mut bank, (solution, seen), declared, price);
+    Some(question(&mut linear))
 }
 
 /// The squared error of a model, to first order, after the names that a forward selection finds; in

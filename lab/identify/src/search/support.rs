@@ -22,6 +22,7 @@ use crate::problem::Prepared;
 use crate::score::binned::{binned, Bin};
 use crate::score::blocks::{blocks, Regime};
 use crate::score::hats::HATS;
+use bowden::effect::Motion;
 use bowden::model::Source;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -45,7 +46,7 @@ pub(super) fn supported(data: &Prepared, ledger: &Ledger) -> Option<Supported> {
     }
     let is_complete = is_at_noise(data, ledger.last());
     let of = |solution: &Solution| {
-        let answer = |linear: &Linear| {
+        let answer = |linear: &mut Linear| {
             let comparison = Comparison::new(linear);
             let mut found = comparison.found();
             if is_complete || found.is_empty() {
@@ -144,8 +145,34 @@ fn owner(data: &Prepared, group: &Group) -> Column {
     }
 }
 
+/// The hysteresis state times the square of each position: friction that rises towards both ends of
+/// a stroke. No effect of the catalogue is even in the position and odd in the direction.
+fn by_place(linear: &Linear) -> Vec<(Source, Vec<f64>)> {
+    let (data, eta) = (linear.seen, &linear.now.eta);
+    if eta.iter().all(|eta| *eta == 0.0) {
+        return Vec::new();
+    }
+    let sources = Variable::all(data, false)
+        .into_iter()
+        .filter_map(|variable| match variable {
+            Variable::DirectedPosition(source) => Some(source),
+            _ => None,
+        });
+    let column = |source| {
+        let channel = data.channel(source)?;
+        let far = |m: &Motion<f64>| (m.position - channel.middle).powi(2);
+        let pairs = channel.motion.iter().zip(eta);
+        Some((source, pairs.map(|(m, eta)| far(m) * eta).collect()))
+    };
+    sources.filter_map(column).collect()
+}
+
 impl<'a> Comparison<'a> {
-    fn new(linear: &'a Linear<'a>) -> Self {
+    fn new(linear: &'a mut Linear<'_>) -> Self {
+        let (sources, by_place): (Vec<Source>, Vec<Vec<f64>>) =
+            by_place(linear).into_iter().unzip();
+        let by_place = linear.add(&by_place);
+        let linear = &*linear;
         let (own, target) = linear.baseline();
         let grams = &linear.grams;
         let rows = linear.seen.split.fit.len().max(1) as f64;
@@ -173,6 +200,12 @@ impl<'a> Comparison<'a> {
                     precision.push(RIDGE);
                 }
             }
+        }
+        for (place, source) in by_place.into_iter().zip(sources) {
+            places.push(place);
+            let mechanism = Mechanism::HysteresisShape;
+            columns.push(Some(Column { mechanism, source }));
+            precision.push(RIDGE);
         }
         places.push(target);
         let size = places.len();
