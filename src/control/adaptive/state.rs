@@ -48,8 +48,8 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
 
 /// Every term of the law in one step, with the estimates that the step used.
 ///
-/// After a bad sample, or with a dropped regressor ([`Status::Degraded`]), `z` and the estimates
-/// are the values in the state; the other terms are zero.
+/// After a bad sample, or with a dropped regressor ([`Degraded`](crate::control::Status::Degraded)),
+/// `z` and the estimates are the values in the state; the other terms are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -189,8 +189,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample
-    /// continues from the safe command, with unchanged estimates.
+    /// Only this call ends a latched safe command ([`Safe`](crate::control::Status::Safe)). The next
+    /// good sample continues from the safe command, with unchanged estimates.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }

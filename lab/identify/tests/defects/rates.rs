@@ -76,6 +76,94 @@ fn shifted(all: &[Column], every: usize, late: impl Fn(usize, usize) -> usize) -
     all.iter().enumerate().map(thin).collect()
 }
 
+/// Rounds to steps, as a coarse sensor does.
+fn rounded(own: &mut [f64], step: f64) {
+    own.iter_mut().for_each(|v| *v = (*v / step).round() * step);
+}
+
+/// Damages a column whose values extend over this range.
+fn damage(kind: &str, rng: &mut ChaCha8Rng, own: &mut [f64], range: f64) {
+    let rows = own.len();
+    match kind {
+        "stuck" => {
+            for _ in 0..rng.random_range(1..4) {
+                let from = rng.random_range(200..rows - 500);
+                let length = (30.0 * 10.0_f64.powf(rng.random::<f64>())) as usize;
+                let level = own[from];
+                own[from..from + length].fill(level);
+            }
+        }
+        "clipping" => {
+            let mut sorted = own.to_vec();
+            sorted.sort_by(f64::total_cmp);
+            let share = 0.003 * 30.0_f64.powf(rng.random::<f64>());
+            let level = sorted[((1.0 - share) * rows as f64) as usize];
+            own.iter_mut().for_each(|v| *v = v.min(level));
+        }
+        "spike" => {
+            for _ in 0..rng.random_range(1..8) {
+                let (from, length) = (rng.random_range(50..rows - 50), rng.random_range(1..4));
+                let sign = [-1.0, 1.0][rng.random_range(0..2)];
+                let height = sign * range * 0.05 * 40.0_f64.powf(rng.random::<f64>());
+                own[from..from + length]
+                    .iter_mut()
+                    .for_each(|v| *v += height);
+            }
+        }
+        "quantisation" => rounded(own, range / rng.random_range(6.0..16.0_f64).round()),
+        "held" => {
+            let period = rng.random_range(4.0..25.0_f64);
+            let true_values = own.to_vec();
+            for (row, value) in own.iter_mut().enumerate() {
+                *value = true_values[((row as f64 / period).floor() * period).ceil() as usize];
+            }
+        }
+        "wrapped" => {
+            let turn = [TAU, 360.0][rng.random_range(0..2)];
+            let turns = rng.random_range(1.3..12.0);
+            own.iter_mut()
+                .for_each(|v| *v = (turn * turns * *v / range).rem_euclid(turn));
+        }
+        _ => unreachable!("{kind}"),
+    }
+}
+
+/// Changes a column to what resembles a fault.
+fn resemble(kind: &str, rng: &mut ChaCha8Rng, own: &mut [f64], range: f64) {
+    let rows = own.len();
+    match kind {
+        // A coarse sensor, or one that is flat where nothing moves.
+        "stuck" => rounded(own, range / rng.random_range(60.0..400.0_f64).round()),
+        "clipping" => rounded(own, range / rng.random_range(100.0..2000.0_f64).round()),
+        // Noise with long tails: its rms is one part in a hundred of the range.
+        "spike" => {
+            for value in own.iter_mut() {
+                let (u, sign) = (rng.random::<f64>(), [-1.0, 1.0][rng.random_range(0..2)]);
+                *value -= 0.007 * range * sign * (1.0 - u).ln();
+            }
+        }
+        "quantisation" => {
+            let counts = 100.0 * 10.0_f64.powf(rng.random::<f64>()).round();
+            rounded(own, range / counts);
+        }
+        // Even motion over the counts of an encoder.
+        "held" => {
+            let counts = rng.random_range(40.0..160.0);
+            for (row, value) in own.iter_mut().enumerate() {
+                let phase = (row as f64 / rows as f64 * 4.0).rem_euclid(2.0);
+                *value = (counts * (1.0 - (phase - 1.0).abs())).floor();
+            }
+        }
+        // A sawtooth of no known turn.
+        "wrapped" => {
+            let turns = rng.random_range(1.3..6.0);
+            own.iter_mut()
+                .for_each(|v| *v = (5.0 * turns * *v / range).rem_euclid(5.0));
+        }
+        _ => unreachable!("{kind}"),
+    }
+}
+
 /// A record with a fault, or with what resembles it, and the damaged column.
 fn drawn(kind: &str, seed: u64, is_fault: bool, sound: &[Column]) -> (Vec<Column>, usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(31 * seed + u64::from(is_fault));
@@ -89,58 +177,8 @@ fn drawn(kind: &str, seed: u64, is_fault: bool, sound: &[Column]) -> (Vec<Column
         _ => rng.random_range(1..all.len()),
     };
     let (low, high) = span(&all[column].values);
-    let range = high - low;
     let own = &mut all[column].values;
     match (kind, is_fault) {
-        ("stuck", true) => {
-            for _ in 0..rng.random_range(1..4) {
-                let from = rng.random_range(200..rows - 500);
-                let length = (30.0 * 10.0_f64.powf(rng.random::<f64>())) as usize;
-                let level = own[from];
-                own[from..from + length].fill(level);
-            }
-        }
-        // A coarse sensor, or one that is flat where nothing moves.
-        ("stuck", false) => {
-            let step = range / rng.random_range(60.0..400.0_f64).round();
-            own.iter_mut().for_each(|v| *v = (*v / step).round() * step);
-        }
-        ("clipping", true) => {
-            let mut sorted = own.clone();
-            sorted.sort_by(f64::total_cmp);
-            let share = 0.003 * 30.0_f64.powf(rng.random::<f64>());
-            let level = sorted[((1.0 - share) * rows as f64) as usize];
-            own.iter_mut().for_each(|v| *v = v.min(level));
-        }
-        ("clipping", false) => {
-            let step = range / rng.random_range(100.0..2000.0_f64).round();
-            own.iter_mut().for_each(|v| *v = (*v / step).round() * step);
-        }
-        ("spike", true) => {
-            for _ in 0..rng.random_range(1..8) {
-                let (from, length) = (rng.random_range(50..rows - 50), rng.random_range(1..4));
-                let sign = [-1.0, 1.0][rng.random_range(0..2)];
-                let height = sign * range * 0.05 * 40.0_f64.powf(rng.random::<f64>());
-                own[from..from + length]
-                    .iter_mut()
-                    .for_each(|v| *v += height);
-            }
-        }
-        // Noise with long tails: its rms is one part in a hundred of the range.
-        ("spike", false) => {
-            for value in own.iter_mut() {
-                let (u, sign) = (rng.random::<f64>(), [-1.0, 1.0][rng.random_range(0..2)]);
-                *value -= 0.007 * range * sign * (1.0 - u).ln();
-            }
-        }
-        ("quantisation", _) => {
-            let counts = match is_fault {
-                true => rng.random_range(6.0..16.0_f64).round(),
-                false => 100.0 * 10.0_f64.powf(rng.random::<f64>()).round(),
-            };
-            let step = range / counts;
-            own.iter_mut().for_each(|v| *v = (*v / step).round() * step);
-        }
         ("gap", true) => {
             for _ in 0..rng.random_range(1..4) {
                 let length = (2.0 * 60.0_f64.powf(rng.random::<f64>())) as usize;
@@ -172,34 +210,8 @@ fn drawn(kind: &str, seed: u64, is_fault: bool, sound: &[Column]) -> (Vec<Column
             };
             all = shifted(&all, every, late);
         }
-        ("held", true) => {
-            let period = rng.random_range(4.0..25.0_f64);
-            let true_values = own.clone();
-            for (row, value) in own.iter_mut().enumerate() {
-                *value = true_values[((row as f64 / period).floor() * period).ceil() as usize];
-            }
-        }
-        // Even motion over the counts of an encoder.
-        ("held", false) => {
-            let counts = rng.random_range(40.0..160.0);
-            for (row, value) in own.iter_mut().enumerate() {
-                let phase = (row as f64 / rows as f64 * 4.0).rem_euclid(2.0);
-                *value = (counts * (1.0 - (phase - 1.0).abs())).floor();
-            }
-        }
-        ("wrapped", true) => {
-            let turn = [TAU, 360.0][rng.random_range(0..2)];
-            let turns = rng.random_range(1.3..12.0);
-            own.iter_mut()
-                .for_each(|v| *v = (turn * turns * *v / range).rem_euclid(turn));
-        }
-        // A sawtooth of no known turn.
-        ("wrapped", false) => {
-            let turns = rng.random_range(1.3..6.0);
-            own.iter_mut()
-                .for_each(|v| *v = (5.0 * turns * *v / range).rem_euclid(5.0));
-        }
-        _ => unreachable!("{kind}"),
+        (_, true) => damage(kind, &mut rng, own, high - low),
+        (_, false) => resemble(kind, &mut rng, own, high - low),
     }
     (all, column)
 }
