@@ -130,12 +130,12 @@ impl<T: Real> Relay<T> {
         let s = &self.settings;
         let status = match state.held.latched(&s.fallback) {
             Some(safe) => safe,
-            None if state.result.is_some() => Status::Good,
-            None => self.advance(state, dt, measured),
+            None if state.result.is_none() => self.advance(state, dt, measured),
+            None => {
+                state.held.command = s.centre;
+                Status::Good
+            }
         };
-        if state.result.is_some() && status == Status::Good {
-            state.held.command = s.centre;
-        }
         // The state may come from any source.
         let command = s.limits.clamp(state.held.command);
         state.held.command = command;
@@ -145,7 +145,6 @@ impl<T: Real> Relay<T> {
     /// The step of an experiment that is still running.
     fn advance(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Status {
         let s = &self.settings;
-        let safe = s.fallback.command().unwrap_or(s.centre);
         let of_dt = fault_of_dt(dt, s.longest_dt);
         let passed = if of_dt.is_none() { dt } else { s.longest_dt };
         state.remaining = state.remaining.saturating_sub(self.ticks(passed));
@@ -154,7 +153,7 @@ impl<T: Real> Relay<T> {
                 0 => Fault::NoOscillation,
                 _ => Fault::TimeOut,
             };
-            return state.held.fail(reason, safe);
+            return self.fail(state, reason);
         }
         match (of_dt, &mut state.cycle) {
             (Some(_), cycle) => *cycle = None,
@@ -169,10 +168,17 @@ impl<T: Real> Relay<T> {
         }
         let deviation = measured - s.reference;
         if deviation.abs() > s.most_deviation {
-            return state.held.fail(Fault::OutputOutOfRange, safe);
+            return self.fail(state, Fault::OutputOutOfRange);
         }
         self.switch(state, deviation);
         Status::Good
+    }
+
+    #[inline]
+    fn fail(&self, state: &mut RelayState<T>, reason: Fault) -> Status {
+        let fallback = &self.settings.fallback;
+        let safe = fallback.command().unwrap_or(self.settings.centre);
+        state.held.fail(reason, safe)
     }
 
     /// The part of the budget that a time above zero takes: at least one tick, so the budget
@@ -194,19 +200,21 @@ impl<T: Real> Relay<T> {
         if let Some(cycle) = &mut state.cycle {
             cycle.sees(deviation);
         }
-        match (state.upper, upper, &mut state.cycle) {
-            (Some(true), false, Some(cycle)) => cycle.upper_time = cycle.time.value,
-            (Some(false), true, cycle) => {
-                let ended = cycle.replace(Cycle::starting_at(deviation));
-                state.result = ended.and_then(|cycle| self.averaged(state, &cycle));
-            }
-            _ => {}
-        }
-        state.upper = Some(upper);
         state.held.command = match upper {
             true => s.centre + s.amplitude,
             false => s.centre - s.amplitude,
         };
+        match (state.upper.replace(upper), upper, &mut state.cycle) {
+            (Some(true), false, Some(cycle)) => cycle.upper_time = cycle.time.value,
+            (Some(false), true, cycle) => {
+                let ended = cycle.replace(Cycle::starting_at(deviation));
+                state.result = ended.and_then(|cycle| self.averaged(state, &cycle));
+                if state.result.is_some() {
+                    state.held.command = s.centre;
+                }
+            }
+            _ => {}
+        }
     }
 
     /// Adds a complete cycle to the average; returns the result after the last one.

@@ -363,6 +363,7 @@ impl<T: Real> Held<T> {
     }
 
     /// Applies the safe command and latches it, for this fault.
+    #[inline]
     pub(crate) fn fail(&mut self, fault: Fault, safe: T) -> Status {
         self.command = safe;
         self.latch = Latch::Safe(fault);

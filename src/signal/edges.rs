@@ -146,9 +146,9 @@ impl<T: Real> EdgeVelocity<T> {
 
     #[inline]
     fn advance(&self, state: &mut EdgeVelocityState<T>, position: T, dt: T) -> RateStatus {
-        if let Some(fault) = fault_of_dt(dt, T::HIGHEST) {
+        if !dt.is_finite() || dt <= T::ZERO {
             state.time_unknown |= dt != T::ZERO;
-            return RateStatus::Held(fault);
+            return RateStatus::Held(fault_of_dt(dt, T::HIGHEST).unwrap_or(Fault::Dt));
         }
         // At least dt, also where a stored gap was negative.
         state.gap = clamp(state.gap + dt, dt, T::HIGHEST);

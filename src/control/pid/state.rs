@@ -129,7 +129,7 @@ impl<T: Real> PidState<T> {
     pub fn resume_from(&mut self, pid: &Pid<T>, output: T, at: &PidInput<T>) -> Status {
         match self.held.latched(&pid.settings().fallback) {
             Some(safe) => safe,
-            None => pid.restart(self, output, at),
+            None => pid.restart(self, output, at, false),
         }
     }
 

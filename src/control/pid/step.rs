@@ -138,11 +138,7 @@ impl<T: Real> Pid<T> {
             let fault = self.fault(at);
             if fault.is_none() && state.held.is_returning() {
                 // It starts from the safe command.
-                let status = self.restart(state, s.limits.clamp(state.command()), at);
-                if status == Status::Good {
-                    state.held.good();
-                }
-                return status;
+                return self.restart(state, s.limits.clamp(state.command()), at, true);
             }
             state.gap = gap_after(state.gap, at.dt, s.longest_dt);
             state
@@ -156,11 +152,21 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// Starts at a sample so that the command continues from `output`; a bad sample counts.
-    pub(super) fn restart(&self, state: &mut PidState<T>, output: T, at: &PidInput<T>) -> Status {
+    /// Starts at a sample so that the command continues from `output`; a bad sample counts. In a
+    /// step, a good one counts too.
+    pub(super) fn restart(
+        &self,
+        state: &mut PidState<T>,
+        output: T,
+        at: &PidInput<T>,
+        in_step: bool,
+    ) -> Status {
         match self.started_at(output, at) {
             Ok((last, integral)) => {
                 state.start(self.settings.limits.clamp(output), last, integral);
+                if in_step {
+                    state.held.good();
+                }
                 Status::Good
             }
             Err(fault) => state.held.bad(fault, &self.settings.fallback),
