@@ -140,7 +140,7 @@ def test_settings_objects_can_be_copied() -> None:
         (bowden.PI(), bowden.PI(lanes=2).state, "2 lanes; 1 is the number"),
         (bowden.PI(), helped().state, "another observer"),
         (helped(), bowden.PI().state, "another observer"),
-        (bowden.Adaptive(theta=[{}]), bowden.Adaptive().state, "a list of 1 item"),
+        (bowden.Adaptive(theta=[{}]), bowden.Adaptive().state, "too many items"),
         (
             bowden.Adaptive(beta={"initial": 1.0, "low": 0.5, "high": 2.0}),
             bowden.Adaptive().state,

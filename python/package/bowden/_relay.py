@@ -155,5 +155,4 @@ class Relay(Block):
         return Fields({"k_p": self._single(k_p), "k_i": self._single(k_i)})
 
     def _results(self) -> list[Any]:
-        phases = [json.loads(text)["phase"] for text in self._native.states()]
-        return [one.get("done") if isinstance(one, dict) else None for one in phases]
+        return [json.loads(text)["result"] for text in self._native.states()]
