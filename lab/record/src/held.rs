@@ -4,7 +4,7 @@
 //! lag or friction. Its updates are true samples; a curve through them replaces the staircase. The
 //! steps of a converter look similar during uniform motion, but then all steps are one count.
 
-use super::scale::{quantile, ENOUGH, PART};
+use super::scale::{quantile, ENOUGH, GRAVE};
 
 /// Replaces stairs with a curve through their edges; returns a note. `step` is the time of one row
 /// \[s\].
@@ -79,7 +79,7 @@ fn period(edges: &[usize]) -> Option<f64> {
     };
     let regular = all.iter().filter(is_regular).count() as f64;
     // To within a row, any updates lie on a shorter period.
-    (period >= 4.0 && regular >= (1.0 - PART) * all.len() as f64).then_some(period)
+    (period >= 4.0 && regular >= (1.0 - GRAVE) * all.len() as f64).then_some(period)
 }
 
 fn two_decimals(value: f64) -> f64 {

@@ -1,20 +1,20 @@
 //! What all detectors share: one scale of consequences, one false-alarm rate, and the statistics of
 //! a signal from which they judge.
 //!
-//! A detector is a statistic whose size without the defect is known. What is told is a trace of the
-//! record or of a signal; what is grave is a part.
+//! A detector is a statistic whose size without the defect is known. One share decides whether a defect
+//! is told, and a larger one whether it is grave.
 
 use std::ops::Range;
 
 /// Share of the samples, or of a signal's spread, from which a defect is told.
-pub(super) const TRACE: f64 = 0.003;
+pub(super) const TOLD: f64 = 0.003;
 /// Share from which a movement counts, and coarse steps are told; and from which conclusions are
 /// invalid where the defect acts on all samples behind it: at the input, whose motion acts through
 /// the hysteresis, and in time.
 pub(super) const FRACTION: f64 = 0.02;
 /// Share from which other conclusions are invalid; and the share of exceptions from which they are
 /// the rule.
-pub(super) const PART: f64 = 0.05;
+pub(super) const GRAVE: f64 = 0.05;
 /// Share of a record that may be missing.
 pub(super) const MISSING: f64 = 0.1;
 

@@ -4,7 +4,7 @@
 //! within one turn, and the other signals do not respond to the jump, as they would to a sawtooth
 //! or a switched reference.
 
-use super::scale::{range, steps, times, usual, BETTER, CLEAR, FEW, LEAP, PART};
+use super::scale::{range, steps, times, usual, BETTER, CLEAR, FEW, GRAVE, LEAP};
 use std::f64::consts::TAU;
 
 /// Removes the jumps from an angle; returns a note.
@@ -63,7 +63,7 @@ fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
     let degrees = [(TAU, "2π".to_owned()), (360.0, "360".to_owned())];
     degrees.into_iter().chain(counts).find(|(turn, _)| {
         // If a turn were less certain, any length would match.
-        let near = (CLEAR * near).max(1e-3 * turn).min(PART * turn);
+        let near = (CLEAR * near).max(1e-3 * turn).min(GRAVE * turn);
         high - low <= turn + near && lengths.iter().all(|length| (length - turn).abs() <= near)
     })
 }

@@ -8,7 +8,7 @@
 
 use super::companion::Companion;
 use super::{share, Found};
-use crate::scale::{is_noisy, range, runs, steps, times, CLEAR, FEW, FRACTION, PART, TRACE};
+use crate::scale::{is_noisy, range, runs, steps, times, CLEAR, FEW, FRACTION, GRAVE, TOLD};
 use std::ops::Range;
 
 /// Plateaus of a clipped signal at one of its two extremes.
@@ -24,7 +24,7 @@ pub(crate) fn heavy(signal: &[f64], other: &[f64]) -> Option<(usize, String)> {
     let own = |end: Clipped| {
         let share = share(&end.plateaus, signal.len());
         let message = message(&end.level.to_string(), end.plateaus.len(), share, 1);
-        (share >= PART).then_some((end.plateaus.first()?.start, message))
+        (share >= GRAVE).then_some((end.plateaus.first()?.start, message))
     };
     all.find_map(own)
 }
@@ -70,7 +70,7 @@ fn ends(signal: &[f64], other: &Companion) -> Vec<Clipped> {
     let end = |level: f64| {
         let plateaus = runs(signal).filter(|run| within(run) && signal[run.start] == level);
         let plateaus: Vec<_> = plateaus.filter(|own| judge.is_clipped(own)).collect();
-        let is_told = share(&plateaus, signal.len()) >= TRACE;
+        let is_told = share(&plateaus, signal.len()) >= TOLD;
         is_told.then_some(Clipped { level, plateaus })
     };
     [high, low].into_iter().filter_map(end).collect()

@@ -7,7 +7,7 @@
 
 use super::companion::Companion;
 use super::Found;
-use crate::scale::{range, runs, spread, BETTER, FRACTION, PART};
+use crate::scale::{range, runs, spread, BETTER, FRACTION, GRAVE};
 
 /// A comb with more teeth than this is fine enough for any signal.
 const MOST_LEVELS: usize = 1000;
@@ -44,7 +44,7 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
             "coarse: steps of {step} over {levels} levels, an error of {:.1} % of the signal's spread; choose a finer sensor or range",
             100.0 * share
         ),
-        grave: share > PART,
+        grave: share > GRAVE,
         samples: std::iter::once(0..signal.len()).collect(),
     })
 }

@@ -1,7 +1,7 @@
 //! Missing rows: jumps of the time.
 
 use super::Found;
-use crate::scale::{steps, usual, LEAP, MISSING, PART};
+use crate::scale::{steps, usual, GRAVE, LEAP, MISSING};
 use crate::time::median_step;
 
 pub(super) fn find(time: &[f64]) -> Option<Found> {
@@ -11,7 +11,7 @@ pub(super) fn find(time: &[f64]) -> Option<Found> {
     let is_gap = |(_, gone): &(usize, f64)| *gone > limit;
     let gaps: Vec<(usize, f64)> = steps(time).enumerate().filter(is_gap).collect();
     // With many gaps time is uneven by nature, and no rows are missing.
-    if gaps.is_empty() || gaps.len() as f64 > PART * time.len() as f64 {
+    if gaps.is_empty() || gaps.len() as f64 > GRAVE * time.len() as f64 {
         return None;
     }
     let longest = gaps.iter().map(|(_, gone)| *gone).fold(0.0, f64::max);

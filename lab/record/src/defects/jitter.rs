@@ -5,7 +5,7 @@
 //! either the stamps or the row numbers predict a sample better from its neighbours.
 
 use super::Found;
-use crate::scale::{spread, BETTER, FRACTION, MANY, TRACE};
+use crate::scale::{spread, BETTER, FRACTION, MANY, TOLD};
 use crate::time::median_step;
 use crate::Column;
 use std::ops::Range;
@@ -19,7 +19,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
         .filter(|signal| rows_predict(time, signal, step))
         .map(|signal| error(&shifts, signal))
         .fold(0.0, f64::max);
-    if error < TRACE {
+    if error < TOLD {
         return None;
     }
     let known: Vec<f64> = shifts.iter().flatten().copied().collect();

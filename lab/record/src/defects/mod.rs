@@ -16,7 +16,7 @@ mod spikes;
 mod stuck;
 
 use super::rows::Table;
-use super::scale::{FRACTION, MISSING, PART};
+use super::scale::{FRACTION, GRAVE, MISSING};
 use super::{Column, Record};
 pub(super) use clipping::heavy;
 pub use coarse::Steps;
@@ -110,10 +110,10 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
     let spikes: Vec<Option<Found>> = (0..measured.columns.len())
         .map(|index| match index {
             0 => leaps[0].spikes(&[&leaps[1]], FRACTION),
-            1 => leaps[1].spikes(&[&leaps[0]], PART),
+            1 => leaps[1].spikes(&[&leaps[0]], GRAVE),
             _ => {
                 let own = Leaps::of(&measured.columns[index].values);
-                own.spikes(&[&leaps[0], &leaps[1]], PART)
+                own.spikes(&[&leaps[0], &leaps[1]], GRAVE)
             }
         })
         .collect();
@@ -130,7 +130,7 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
             _ => vec![&at_input, &at_output],
         };
         let values = &calm[index];
-        let few = if index == 0 { FRACTION } else { PART };
+        let few = if index == 0 { FRACTION } else { GRAVE };
         let parts = index.checked_sub(2).and_then(|i| measured.parts.get(i));
         let parts = parts.map_or(&[][..], Vec::as_slice);
         let stuck = stuck((column, values), parts, &others, few);

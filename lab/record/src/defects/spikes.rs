@@ -6,7 +6,7 @@
 //! ends of the transmission is an event, unless both are corrupted in the same samples.
 
 use super::{share, Found};
-use crate::scale::{quantile, steps, times, usual, FEW, FRACTION, LEAP, MANY, PART};
+use crate::scale::{quantile, steps, times, usual, FEW, FRACTION, GRAVE, LEAP, MANY};
 use std::ops::Range;
 
 /// A spike ends within this share of its height from where it began.
@@ -118,7 +118,7 @@ impl<'a> Leaps<'a> {
             1 => "one sample".to_owned(),
             _ => format!("{longest} samples"),
         };
-        (share <= PART).then(|| Found {
+        (share <= GRAVE).then(|| Found {
             message: format!(
                 "spikes: up to {} for at most {within}, {}; replaced by a straight line, {:.2} % of the samples",
                 three_digits(highest),
