@@ -8,7 +8,7 @@
 //! motions and subtracts them from the desired output. It then inverts equations (5) to (7) exactly
 //! along the path of the hysteresis.
 //!
-//! Use the reference as the desired output, not the measured output, because noise destroys the
+//! Use the reference as the desired output, not the measured output, because noise corrupts the
 //! hysteresis state ([`transmission`](crate::transmission)). The model runs in open loop, so its
 //! state differs from the state of the plant by the model error.
 
@@ -131,8 +131,9 @@ impl<T: Real> BenchRange<T> {
 ///
 /// Two rules apply to effects that depend on the result:
 /// - An effect that reads the transmission's input or the load uses the values in the sample, for
-///   example the last command. Each sample is then one step of an iteration, which converges if the
-///   slope of the effect with respect to these values is below the gain of the cable.
+///   example the last command. Each sample is then one step of an iteration. The iteration
+///   converges if the slope of the effect with respect to these values is below the gain of the
+///   cable.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
 /// Without such effects, the output of the model for `command` is `desired`, up to rounding errors.
@@ -218,8 +219,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// The same compensator with a longest `dt` \[s\], positive; default: no limit.
     ///
     /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can produce a `dt` of
-    /// about an hour, which would advance every effect with memory (creep, temperature) by this
-    /// time.
+    /// about an hour. Every effect with memory (creep, temperature) would then advance by an hour.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -240,7 +240,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// A term that reads a velocity from encoder counts reverses the desired output from sample to
     /// sample, so the command chatters. A play removes these reversals. Choose its half-width
     /// slightly above half the effect of one count on the output. With velocities from
-    /// [`Rates`](crate::signal::Rates), this half is `|gain|·count/(2·time constant)`. The output
+    /// [`Rates`](crate::signal::Rates), this value is `|gain|·count/(2·time constant)`. The output
     /// of the model then equals `desired` to within the half-width.
     ///
     /// # Errors
@@ -287,8 +287,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// Processes one sample and returns the input for which the model's output is `desired`.
     ///
-    /// A bad sample holds the last good command, zero before the first one. It leaves the state
-    /// unchanged except for the count of bad samples. A sample is bad if
+    /// A bad sample holds the last good command, and leaves the state unchanged except for the
+    /// count of bad samples. The command is zero before the first good sample. A sample is bad if
     /// - `dt` is not positive or too long,
     /// - the desired output or a number that a term reads is not finite, or
     /// - a channel is missing.

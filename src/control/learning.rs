@@ -1,4 +1,4 @@
-//! Iterative learning control: a feed-forward from the error of earlier cycles of a task.
+//! Iterative learning control: a feed-forward from the error of earlier cycles.
 //!
 //! ```text
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
@@ -100,9 +100,10 @@ pub struct IterativeLearningInput<T> {
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the error of this sample is used. Set `false` if a limit has cut the command, the
-    /// safe command is applied, or the task is different (standing, or a held joint). After a cell
-    /// with more unused than used samples, the errors of the next `lead` cells are ignored as well.
+    /// Whether the error of this sample is used. Set it to `false` if a limit has cut the command,
+    /// the safe command is applied, or the task is different (standing, or a held joint). After a
+    /// cell with more unused than used samples, the errors of the next `lead` cells are ignored as
+    /// well.
     pub learns: bool,
 }
 
@@ -193,8 +194,8 @@ impl<T: Real> IterativeLearning<T> {
     /// Checks the number of cells.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] with fewer than [`fewest_cells`](Self::fewest_cells);
-    /// [`Error::Capacity`] with more than [`MOST_CELLS`](Self::MOST_CELLS).
+    /// [`Error::Inadmissible`] if there are fewer than [`fewest_cells`](Self::fewest_cells);
+    /// [`Error::Capacity`] if there are more than [`MOST_CELLS`](Self::MOST_CELLS).
     pub fn check_cells(&self, cells: usize) -> Result<(), Error> {
         if cells < self.fewest_cells() {
             return Err(Error::Inadmissible(
@@ -207,7 +208,7 @@ impl<T: Real> IterativeLearning<T> {
         Ok(())
     }
 
-    /// A new state over two buffers with one number per cell; both buffers are set to zero.
+    /// A new state with two buffers of one number per cell; both buffers are set to zero.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the buffers differ in length; otherwise the errors of

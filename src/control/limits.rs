@@ -61,7 +61,7 @@ crate::checked! {
 }
 
 impl<T: Real> Limits<T> {
-    /// The range of finite floats, for a simulation and not for a machine.
+    /// All finite commands, for a simulation and not for a machine.
     pub const fn unlimited() -> Self {
         Self {
             low: T::LOWEST,

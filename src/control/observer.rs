@@ -43,8 +43,8 @@ crate::checked::stored! {
     /// A disturbance observer: nominal plant, filter, latency, and limit of the estimate.
     ///
     /// Both lags of Q have the implicit form of [`Derivative`](crate::signal::Derivative), with
-    /// `s = h/(tau + h)`. The lag for the latency L has the share `h/L`. Here h is the time since
-    /// the last good sample:
+    /// `s = h/(tau + h)`. The lag for the latency L has the factor `min(h/L, 1)`. Here h is the
+    /// time since the last good sample:
     ///
     /// ```text
     /// w0⁺ = w0 + min(h/L, 1)·(u_sent − w0)    w1⁺ = w1 + s·(w0⁺ − w1)    w2⁺ = w2 + s·(w1⁺ − w2)
@@ -136,8 +136,9 @@ crate::checked! {
 
     /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
     ///
-    /// The latency is the sum of the delay in samples, half a sample for the zero-order hold, and
-    /// the lags of drive and sensor. It does not include the response of the nominal plant.
+    /// The latency is the sum of the delays in whole samples, half a sample for the zero-order
+    /// hold, and the lags of drive and sensor. It does not include the response of the nominal
+    /// plant.
     ///
     /// Before the comparison, the observer delays the command by a lag with this time constant.
     ///

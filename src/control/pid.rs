@@ -163,9 +163,9 @@ impl<T: Real> Pid<T> {
     /// The limit that acts on the command (range or slew-rate limit), for the outer loop of a
     /// cascade.
     ///
-    /// Pass the result to [`applied`](Self::applied) of the outer loop. If the gains of the inner
-    /// loop are positive and its command is at the upper limit, a larger output of the outer loop
-    /// has no effect. A command that equals a limit of the range counts as limited.
+    /// Pass the result to [`applied`](Self::applied) of the outer loop. If the inner loop has
+    /// positive gains and its command is at the upper limit, a larger output of the outer loop has
+    /// no effect. A command that equals a limit of the range counts as limited.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
         let (command, limits) = (state.command(), &self.settings.limits);
@@ -186,8 +186,8 @@ impl<T: Real> Pid<T> {
     /// start then continue from the applied command. With back-calculation and a known applied
     /// command, the integral is corrected by the part that the drive cut off. In all other cases
     /// except [`AntiWindup::None`], the last change of the integral is reversed as far as it
-    /// exceeds the drive's limit. The next command still contains the full demand, so the loop uses
-    /// a drive that has recovered at once. See [`Applied`].
+    /// exceeds the drive's limit. The next command still contains the full demand, so the loop
+    /// recovers as soon as the drive does. See [`Applied`].
     pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
         let out = state.command();
         let (less, sent) = match applied {

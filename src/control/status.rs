@@ -108,7 +108,7 @@ crate::checked! {
 
     /// The same fallback with `weight` good samples to cancel a bad sample; default: 4.
     ///
-    /// With a weight of 1, every second sample may be bad without a safe command.
+    /// With a weight of 1, every second sample may be bad without triggering the safe command.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"` if `weight` is zero.
@@ -181,9 +181,9 @@ crate::data! {
     /// The drive's response to the last command.
     ///
     /// A controller assumes that the drive applies its command. Report any other response between
-    /// two steps, for example if a safety relay is open, the drive limits its current, or an inner
-    /// loop is at its limit. The slew-rate limit, anti-windup and a bumpless start then continue
-    /// from the applied command.
+    /// two steps. Examples are an open safety relay, a current limit in the drive, or an inner loop
+    /// at its limit. The slew-rate limit, anti-windup and a bumpless start then continue from the
+    /// applied command.
     ///
     /// ```
     /// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};

@@ -14,7 +14,7 @@ crate::data! {
             /// Leakage rate \[1/s\], not negative.
             rate: T,
         },
-        /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
+        /// Leakage only while the estimate differs from its prior by more than `bound` (Remark 1).
         ///
         /// The leakage rate rises from zero at `bound` to `rate` at twice this distance. This is
         /// the switching sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*,
@@ -71,11 +71,11 @@ impl<T: Real> Leakage<T> {
 crate::data! {
     /// Adaptation of one estimate `p`: equations (24) to (26) in sampled time, with bounds.
     ///
-    /// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, clamped to `[low, high]`. Here v is the
-    /// excitation (`-lambda·s·x` for a regressor x). The leakage is implicit, so it cannot
-    /// overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does not
-    /// depend on h. The increments are accumulated by compensated summation, so slow leakage does
-    /// not stall in `f32`.
+    /// The update is `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, clamped to `[low, high]`.
+    /// Here v is the excitation (`-lambda·s·x` for a regressor x). The leakage is implicit, so it
+    /// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
+    /// not depend on h. The increments are accumulated by compensated summation, so slow leakage
+    /// does not stall in `f32`.
     ///
     /// ```
     /// use bowden::control::{Estimator, Leakage};
@@ -100,8 +100,8 @@ crate::data! {
         pub gain: T,
         /// Leakage to the prior.
         pub leakage: Leakage<T>,
-        /// Prior, to which the leakage leads \[unit of the estimate\]; zero in Nguyen et al.
-        /// (2018).
+        /// Prior: the value that the estimate leaks to \[unit of the estimate\]; zero in Nguyen et
+        /// al. (2018).
         pub prior: T,
     }
 }

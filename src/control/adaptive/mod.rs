@@ -69,8 +69,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// Longest `dt` \[s\] that a step accepts.
     ///
-    /// This is `longest_dt` of the settings. In the first-order form, it is at most
-    /// [`largest_step`](AdaptiveSettings::largest_step).
+    /// This is `longest_dt` of the settings or, in the first-order form, the smaller of
+    /// `longest_dt` and [`largest_step`](AdaptiveSettings::largest_step).
     pub fn longest_dt(&self) -> T {
         self.longest
     }
@@ -78,8 +78,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Whether the state is valid for this law: its numbers are finite, and z, the estimates and
     /// the command are within their limits.
     ///
-    /// Check a stored state before its first use. A step maps a valid state to a valid state,
-    /// for any input.
+    /// Call this method before the first use of a stored state. A step maps a valid state to a
+    /// valid state, for any input.
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveState};

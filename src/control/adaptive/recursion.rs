@@ -32,12 +32,16 @@ pub struct Disturbance<T> {
 
 /// One step of the errors in the closed loop of the first-order form on a static plant.
 ///
-/// On `y = alpha·u - theta'x - D` with u from the previous sample, the errors satisfy exactly `s⁺ =
-/// s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and
-/// `z⁺ = z + h·(s - lambda·z)`. These equations hold for any sequence of steps `h`, as long as the
-/// command and z are not at a limit. The box theorem (`PeakSampled` of `bowden-bound`) applies to
-/// this recursion. Given bounds on `|w|`, which contains the disturbance D, and on `|xi|`, it
-/// computes a box in s and z. Errors that start inside the box stay inside it.
+/// On the plant `y = alpha·u - theta'x - D` with u from the previous sample, these equations are
+/// exact:
+///
+/// - `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi`
+/// - `z⁺ = z + h·(s - lambda·z)`
+///
+/// The equations hold for any sequence of steps `h`, as long as the command and z are not at a
+/// limit. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion. From bounds
+/// on `|w|` and `|xi|`, which contain the disturbance D, the theorem gives a box in s and z. Errors
+/// that start inside the box stay inside it.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};

@@ -16,7 +16,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// The estimates have their initial values. The accumulated error z is chosen so that the
     /// adaptive law and the feed-forward together give `output`. No such z exists if beta_hat is
     /// zero, z would exceed its limit, the command limits exclude `output`, or the sample is bad.
-    /// The command then jumps, and only the slew-rate limit or the lag smooths the jump.
+    /// In these cases, the command jumps, and only the slew-rate limit or the lag smooths the jump.
     ///
     /// The new state has no fault. For a running state, use [`Adaptive::resume`].
     ///
@@ -79,9 +79,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Restarts a state so that the next step on `input` gives the command `output` \[command
     /// unit\].
     ///
-    /// This is [`AdaptiveState::resume_from`] for a running state. An unusable sample counts as a
-    /// bad sample. A latched safe command stays latched. The fault counter is kept, so a restart
-    /// after each bad sample does not prevent the safe command. `input.dt` is ignored.
+    /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
+    /// counts as a bad sample. A latched safe command stays latched. The fault counter is kept, so
+    /// a restart after each bad sample does not prevent the safe command. `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

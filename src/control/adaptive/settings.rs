@@ -8,7 +8,7 @@ use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
 crate::data! {
-    /// Treatment of e', the rate of the error, in (23). Each form is for one kind of plant.
+    /// Treatment of the error rate e' in (23). Each form is for one kind of plant.
     pub enum Form<T> {
         /// Equation (23) as published, with e' as a filtered difference of the error.
         ///
@@ -76,8 +76,8 @@ crate::data! {
         pub lambda: T,
         /// epsilon \[N·m\], positive: width of the smoothed sign function.
         ///
-        /// With one sample of delay, choose at least 1/40 of the largest delta_hat; otherwise the
-        /// command chatters.
+        /// With one sample of delay, epsilon should be at least 1/40 of the largest delta_hat;
+        /// otherwise the command chatters.
         pub epsilon: T,
         /// The smoothed sign function in (23) and (25).
         #[cfg_attr(feature = "serde", serde(default))]
@@ -95,7 +95,7 @@ crate::data! {
         /// Whether the estimates are frozen.
         #[cfg_attr(feature = "serde", serde(default))]
         pub frozen: bool,
-        /// Response to a value of each regressor that is not finite.
+        /// For each regressor, the response to a value that is not finite.
         #[cfg_attr(
             feature = "serde",
             serde(with = "crate::list", default = "all_hold::<N>")
@@ -225,10 +225,10 @@ crate::checked! {
 }
 
 impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
-    /// Settings for a machine, with fixed estimates; the base of a struct update.
+    /// Settings for a machine, with fixed estimates.
     ///
     /// `gain` is k, `lambda` is in \[1/s\], `epsilon` in \[N·m\] and `longest_dt` in \[s\].
-    /// beta_hat is one; delta_hat and theta_hat are zero.
+    /// beta_hat is one; delta_hat and theta_hat are zero. Change other fields with a struct update.
     pub const fn new(
         form: Form<T>,
         gain: T,
@@ -269,10 +269,10 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// Largest `dt` \[s\] that the first-order form admits; `None` for the form as published.
     ///
     /// The result is `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is
-    /// `plant_gain·beta.high`. Up to this `dt`, the next s does not decrease with s, and the box
-    /// theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings that
-    /// [`Adaptive::try_new`](super::Adaptive::try_new) rejects, but their gains must be positive
-    /// and finite.
+    /// `plant_gain·beta.high`. Up to this `dt`, the next s is a non-decreasing function of s, and
+    /// the box theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings
+    /// that [`Adaptive::try_new`](super::Adaptive::try_new) rejects, but their gains must be
+    /// positive and finite.
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {
         let Form::FirstOrder { plant_gain, .. } = self.form else {

@@ -198,8 +198,8 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     ///
     /// Call this method between two steps. The slew-rate limit and the first-order form then
     /// continue from the applied command. At the next good sample, z does not move further towards
-    /// this limit of the drive, and the estimates do not change if s requires more. See
-    /// [`Applied`].
+    /// the limit of the drive. The estimates do not change if s requires more than this limit
+    /// allows. See [`Applied`].
     pub fn applied(&mut self, applied: Applied<T>) {
         let out = self.held.command;
         self.drive = match applied {

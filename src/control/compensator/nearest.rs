@@ -10,7 +10,7 @@ use crate::{Error, Real};
 pub struct Changed<T, const N: usize> {
     /// Sigma of the identified model and of the compensator, if sigma was lowered.
     pub sigma: Option<(T, T)>,
-    /// Rho of both \[1/input unit\], if sigma = 1/2 was not sufficient.
+    /// Rho of the identified model and of the compensator \[1/input unit\], if rho was lowered.
     pub rho: Option<(T, T)>,
     left_out: [bool; N],
 }
@@ -72,7 +72,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the model has no transmission or its gain is zero;
-    /// [`Error::OutOfRange`] with `"rho"` if no float is small enough for rho.
+    /// [`Error::OutOfRange`] with `"rho"` if the required rho is too small for the float type.
     pub fn try_nearest(model: &Model<T, N>) -> Result<(Self, Changed<T, N>), Error> {
         let identified = *model
             .transmission()

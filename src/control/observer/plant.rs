@@ -55,10 +55,12 @@ crate::checked! {
 }
 
 impl<T: Real> NominalPlant<T> {
-    /// A plant from the drive's specification: the torque of one command unit at rest, inertia > 0
-    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\].
+    /// A plant from the drive's specification.
     ///
-    /// The stiffness is that of cable and load in series.
+    /// - `gain` is the torque of one command unit at rest, nonzero.
+    /// - `inertia` \[kg·m²\] is positive.
+    /// - `damping` \[N·m·s/rad\] is the viscous damping, not negative.
+    /// - `stiffness` \[N·m/rad\] is the stiffness of cable and load in series, positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the
