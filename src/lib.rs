@@ -2,8 +2,8 @@
 //!
 //! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
 //! on the present input and on earlier inputs. This crate models the cable with a **Bouc-Wen**
-//! hysteresis of torque or displacement. A catalogue of **effects**, such as viscous friction,
-//! backlash and creep, complements this model.
+//! hysteresis of torque or displacement. A catalogue of **effects**, such as viscous friction and
+//! backlash, complements this model.
 //!
 //! The crate is `no_std`, allocates no memory, contains no unsafe code, and is generic over `f32`
 //! and `f64`. Its run-time dependencies are `num-traits` and `libm`.
@@ -37,14 +37,11 @@
 //! ```
 //!
 //! # The book
-//! 1. [The idea](book::idea): hysteresis in a cable, and its effect on a torque controller.
-//! 2. [The equations](book::equations): the model, and corrections to Nguyen et al. (2018).
-//! 3. [Reading a verdict](book::verdict): what each result of `bowden identify` means, and what to
-//!    do next.
-//! 4. [Choosing a controller](book::controller): the controllers, their gains, and their
-//!    instruction counts.
-//! 5. [From bench to motor](book::motor): how to run the model in firmware and test it on the
-//!    board.
+//! 1. [The idea](book::idea)
+//! 2. [The equations](book::equations)
+//! 3. [Reading a verdict](book::verdict) of `bowden identify`
+//! 4. [Choosing a controller](book::controller)
+//! 5. [From bench to motor](book::motor)
 //!
 //! # Modules
 //! | module | contents | equations |

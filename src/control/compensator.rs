@@ -9,8 +9,7 @@
 //! along the path of the hysteresis.
 //!
 //! Use the reference as the desired output, not the measured output, because noise corrupts the
-//! hysteresis state ([`transmission`](crate::transmission)). The model runs in open loop, so its
-//! state differs from the state of the plant by the model error.
+//! hysteresis state ([`transmission`](crate::transmission)).
 
 use super::{Fault, Status};
 use crate::effect::{Effect, Inputs, Motion};
@@ -252,8 +251,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// The same compensator with motions clamped to the bench range of each source.
     ///
-    /// The clamp prevents extrapolation beyond the fitted data. Sources without a range are not
-    /// clamped. If a source has two ranges, the later one applies.
+    /// Sources without a range are not clamped. If a source has two ranges, the later one applies.
     ///
     /// # Errors
     /// [`Error::NonFinite`] if a range is not finite; [`Error::Inadmissible`] if `low > high` or if

@@ -41,7 +41,7 @@ impl<T> Output<T> {
     }
 }
 
-/// One sample for any controller; each controller reads the fields that it needs.
+/// One sample for any controller, which reads the fields that it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoopSample<'a, T> {

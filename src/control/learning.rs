@@ -7,8 +7,7 @@
 //! A cycle is divided into cells of equal phase width, and e is the mean of `reference − measured`
 //! over a cell. The feed-forward interpolates linearly between the learned values at the centres of
 //! the cells. The learned value of a cell is updated `lead + half_width` cells after the end of the
-//! cell, when all required errors are known. The computation is therefore distributed over the
-//! cycle, and no pause between cycles is necessary.
+//! cell, when all required errors are known.
 //!
 //! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has zero
 //! phase, and its gain is between 0 and 1 at every frequency (Fejér kernel):
@@ -24,9 +23,7 @@
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison
-//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015. In the
-//! second paper, a proportional controller with such a feed-forward had the smallest error of nine
-//! methods.
+//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015.
 
 use super::{Fault, Output, Status};
 use crate::error::{above_zero, must_be_finite, not_below_zero, rarely};
@@ -259,9 +256,8 @@ impl<T: Real> IterativeLearning<T> {
     /// last feed-forward is held.
     ///
     /// Call this method at every sample, before the controller. For any state and buffers, the
-    /// feed-forward is finite and within ±limit. A jump of the phase causes a jump of the
-    /// feed-forward. A slew-rate limit in the controller's [`Limits`](crate::control::Limits)
-    /// smooths this jump.
+    /// feed-forward is finite and within ±limit. A slew-rate limit in the controller's
+    /// [`Limits`](crate::control::Limits) smooths the jump that follows a jump of the phase.
     ///
     /// - A phase outside 0 to 1 holds the feed-forward. The controller does not detect this fault,
     ///   so its fallback does not act. If the phase signal can fail, omit the feed-forward after a
@@ -273,8 +269,8 @@ impl<T: Real> IterativeLearning<T> {
     ///   ends early at heel contact is such a jump: the last `lead + half_width` cells before it do
     ///   not learn.
     /// - While the phase is up to four cells behind (jitter), the samples are not used. With larger
-    ///   jitter, the phase passes some cells several times, and these cells learn each time. In
-    ///   this case, filter the phase, or set `learns` to `false`.
+    ///   jitter, cells learn several times per cycle. In this case, filter the phase, or set
+    ///   `learns` to `false`.
     /// - The most expensive step completes four cells, each with a sum over `2·half_width + 1`
     ///   cells.
     #[inline]

@@ -11,8 +11,7 @@
 //! frequencies below `1/tau`, the loop then behaves as if the plant were the nominal plant, unless
 //! a limit is active.
 //!
-//! The observer needs no friction model. It needs alpha, wn and zeta, from the drive's
-//! specification or from a bench record.
+//! The observer needs alpha, wn and zeta from the drive's specification or from a bench record.
 //!
 //! Add the estimate to a controller's `feed_forward`. The limit of the observer bounds the estimate
 //! for any input. You can also add the command of the nominal plant for the reference

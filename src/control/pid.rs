@@ -9,12 +9,11 @@
 //!
 //! - `dt` may vary from call to call, up to the longest `dt`. The derivative uses an implicit
 //!   first-order lag, which is stable for any `dt`; see [`Derivative`].
-//! - The integral is stored as a command, so a change of `k_i` does not move the command. It is
-//!   computed by compensated summation, because in `f32` a plain sum would lose small increments.
-//! - The anti-windup treats the slew-rate limit and the range differently; see [`AntiWindup`].
+//! - The integral is stored as a command, so a change of `k_i` does not move the command.
+//!   Compensated summation prevents the loss of small increments in `f32`.
+//! - [`AntiWindup`] lists the anti-windup methods.
 //! - A bad sample leaves the state unchanged and holds the command; see [`Status`]. After a gap of
-//!   bad samples, the derivative includes the time of the gap, and the integral does not. After too
-//!   many bad samples, the safe command is applied until [`PidState::acknowledge`] is called.
+//!   bad samples, the derivative includes the time of the gap, and the integral does not.
 //!
 //! Source: section 3.1 of Nguyen et al. (2018); Åström & Hägglund, *Advanced PID Control*, 2006.
 

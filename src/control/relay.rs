@@ -21,15 +21,14 @@
 //!   such a command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low: by 5 %
 //!   for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
 //!   `centre + d·(2·D − 1)` as the next centre.
-//! - **Sampling.** The relay switches at the sample after the crossing, up to one `dt` late. The
-//!   measured period is therefore longer than the period with a continuous relay, by two `dt` on
-//!   average and by four `dt` at most. A sampled controller has the same average delay of half a
-//!   `dt`, so no correction is necessary.
+//! - **Sampling.** The relay switches up to one `dt` after the crossing. The measured period is
+//!   therefore two `dt` longer on average than the period with a continuous relay, and at most four
+//!   `dt` longer. A sampled controller has the same average delay, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the experiment fails with `OutputOutOfRange` or `NoOscillation`.
 //! - **Duration.** The experiment ends within `longest_time`, because bad samples count as well. A
-//!   sample without a usable `dt` counts as `longest_dt`. After a success, the relay applies the
-//!   centre. A failure latches the safe command until [`RelayState::acknowledge`] is called.
+//!   sample without a usable `dt` counts as `longest_dt`. A failure latches the safe command until
+//!   [`RelayState::acknowledge`] is called.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
 //! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay
@@ -121,8 +120,8 @@ impl<T: Real> Relay<T> {
     /// a success, [`RelayState::result`] returns the result, and the relay applies the centre.
     ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
-    /// holds the command. If its `dt` is not usable, the remaining time decreases by `longest_dt`,
-    /// and the average excludes the cycle with this sample.
+    /// holds the command. If its `dt` is not usable, the average excludes the cycle with this
+    /// sample.
     pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Output<T> {
         let s = &self.settings;
         let status = match state.held.latched(&s.fallback) {

@@ -74,8 +74,7 @@ crate::data! {
     /// The update is `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, clamped to `[low, high]`.
     /// Here v is the excitation (`-lambda·s·x` for a regressor x). The leakage is implicit, so it
     /// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
-    /// not depend on h. The increments are accumulated by compensated summation, so slow leakage
-    /// does not stall in `f32`.
+    /// not depend on h. Compensated summation prevents slow leakage from stalling in `f32`.
     ///
     /// ```
     /// use bowden::control::{Estimator, Leakage};

@@ -13,13 +13,10 @@
 //! - The [first-order](Form::FirstOrder) form is for plants that respond within a sample. It solves
 //!   the loop for e'.
 //!
-//! Each form diverges on a plant of the other kind.
-//!
 //! **Bounds on the estimates.** The adaptive law clamps each estimate to its bounds (projection).
 //! If the true value lies within the bounds, the clamp cannot increase the Lyapunov function, and
-//! every invariant holds for any measurement. The paper uses no bounds, so the bounds of
-//! [`Adaptive::paper`] are the range of the float. The first-order form requires positive bounds
-//! for beta_hat, and non-negative bounds for delta_hat.
+//! every invariant holds for any measurement. The first-order form requires positive bounds for
+//! beta_hat, and non-negative bounds for delta_hat.
 
 mod estimator;
 #[cfg(kani)]
@@ -107,10 +104,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 impl<T: Real> Adaptive<T, 2> {
     /// Table 2 of Nguyen et al. (2018), with its initial estimates and no projection.
     ///
-    /// The form is as published. The filter of e' has a time constant of 5 ms, which is not from
-    /// the paper. The regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal
-    /// pulley. beta_hat starts at zero, where the loop is singular, so the output overshoots at
-    /// start-up (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this overshoot.
+    /// The form is as published. The 5 ms filter of e' is not from the paper. The regressors are
+    /// velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley. beta_hat starts at
+    /// zero, where the loop is singular, so the output overshoots at start-up (Figure 9). Bounds
+    /// and `beta.initial = 0.8/alpha` avoid this overshoot.
     ///
     /// ```
     /// use bowden::control::Adaptive;

@@ -80,8 +80,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// unit\].
     ///
     /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
-    /// counts as a bad sample. A latched safe command stays latched. The fault counter is kept, so
-    /// a restart after each bad sample does not prevent the safe command. `input.dt` is ignored.
+    /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
+    /// `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

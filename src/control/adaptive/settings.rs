@@ -14,8 +14,7 @@ crate::data! {
         ///
         /// This form is for a plant with inertia, whose output cannot follow the command at once.
         /// On a static plant with one sample of delay, it diverges unless
-        /// `g·(k + 2/(lambda·h)) < 1` with g = alpha·beta_hat. At 1 kHz, the gains of the paper
-        /// would require a g below 0.004.
+        /// `g·(k + 2/(lambda·h)) < 1` with g = alpha·beta_hat.
         AsPublished {
             /// Time constant of the filter of e' \[s\], not negative; usually 2 to 20 ms.
             time_constant: T,
@@ -228,7 +227,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     /// Settings for a machine, with fixed estimates.
     ///
     /// `gain` is k, `lambda` is in \[1/s\], `epsilon` in \[N·m\] and `longest_dt` in \[s\].
-    /// beta_hat is one; delta_hat and theta_hat are zero. Change other fields with a struct update.
+    /// beta_hat is one; delta_hat and theta_hat are zero.
     pub const fn new(
         form: Form<T>,
         gain: T,

@@ -158,9 +158,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Resets the state like [`new`](Self::new), but keeps the applied command, the fault counter
     /// and a latched safe command.
     ///
-    /// A slew-rate limit and the first-order form continue from the applied command, and a bad
-    /// sample holds this command. To discard the applied command as well, assign
-    /// [`AdaptiveState::new`].
+    /// To discard the applied command as well, assign [`AdaptiveState::new`].
     pub fn reset(&mut self, law: &Adaptive<T, N>) {
         *self = Self {
             held: self.held,
@@ -188,8 +186,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// Only this call ends a latched safe command ([`Safe`](crate::control::Status::Safe)). The
-    /// next good sample continues from the safe command with the same estimates.
+    /// The next good sample continues from the safe command with the same estimates.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }

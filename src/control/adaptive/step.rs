@@ -24,7 +24,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     ///
     /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
     /// does not move further towards this limit. The estimates do not change while s requires more
-    /// than the limit allows. z and the estimates therefore leave the limit without delay.
+    /// than the limit allows.
     ///
     /// A bad sample leaves the state unchanged and holds the last good command; see
     /// [`control`](crate::control). A sample is also bad if `dt` is longer than

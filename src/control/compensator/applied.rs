@@ -12,8 +12,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// the last sample to the reported input, and the next step continues from this state.
     ///
     /// With [`Applied::AtUpperLimit`], the actual input is unknown, and the last rise of the
-    /// model's input is reversed. [`Applied::AtLowerLimit`] reverses a fall. If the method is
-    /// called twice after a step, the second call applies.
+    /// model's input is reversed. [`Applied::AtLowerLimit`] reverses a fall.
     ///
     /// ```
     /// use bowden::control::{Applied, Compensator, CompensatorInput, CompensatorState};

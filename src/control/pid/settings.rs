@@ -114,8 +114,7 @@ crate::data! {
         /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the sign of `k_p`.
         ///
         /// **With 0, there is no integral action.** An existing integral (from other settings, or
-        /// from a start at a given command) returns to zero with a time constant of 1 s. The
-        /// command moves to the sum of the other terms without a jump.
+        /// from a start at a given command) returns to zero with a time constant of 1 s.
         pub k_i: T,
         /// Damping gain; finite. With [`DerivativeSource::Rate`], it must have the sign of `k_p`
         /// (and of `k_i`).
@@ -140,8 +139,8 @@ crate::data! {
         pub integral_limit: Option<T>,
         /// The integral is frozen while `|e|` is at most this value \[output unit\], not negative.
         ///
-        /// With static friction, an integral winds up until the output jumps past the reference,
-        /// and this cycle repeats (hunting). A deadband wider than the jump prevents hunting.
+        /// With static friction, the integral winds up until the output jumps past the reference
+        /// (hunting). A deadband wider than this jump prevents hunting.
         #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
         pub deadband: T,
         /// Period of an output that wraps \[output unit\], positive, such as 360°.

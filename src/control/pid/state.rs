@@ -105,13 +105,12 @@ impl<T: Real> PidState<T> {
     /// Restarts with an integral for which the command continues from `output` \[command unit\].
     ///
     /// At the sample `at`, the terms including the feed-forward add up to `output`, clamped to the
-    /// limits. Use this method to start from a command that is already applied, for example after
-    /// manual control or another controller. The derivative starts at zero. The next step at the
-    /// same sample adds only one step of the integral. `at.dt` is ignored.
+    /// limits. Use this method after manual control or another controller. The derivative starts at
+    /// zero. The next step at the same sample adds only one step of the integral. `at.dt` is
+    /// ignored.
     ///
     /// A number that is not finite, or an overflow, counts as a bad sample and returns a fault. A
-    /// latched safe command stays latched. The fault counter is kept, so a restart after each bad
-    /// sample does not prevent the safe command.
+    /// latched safe command stays latched, and the fault counter is kept.
     ///
     /// The integral is the difference between `output` and the other terms at `at`. With `k_i` = 0,
     /// the integral then returns to zero; see [`PidSettings::k_i`](super::PidSettings::k_i).
@@ -143,17 +142,15 @@ impl<T: Real> PidState<T> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample then
-    /// starts from the safe command, without a jump, as after [`resume_from`](Self::resume_from).
+    /// The next good sample starts from the safe command without a jump.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }
 
     /// Clears the integral, the derivative and the samples, but keeps the applied command.
     ///
-    /// A slew-rate limit continues from the applied command. A latched safe command stays latched.
-    /// The fault counter is kept, so a reset at each bad sample does not prevent the safe command.
-    /// To discard the applied command as well, assign [`PidState::new`].
+    /// A latched safe command stays latched, and the fault counter is kept. To discard the applied
+    /// command as well, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
             held: self.held,

@@ -56,8 +56,7 @@ crate::data! {
         pub agreement: T,
         /// Maximum duration of the experiment, at least `longest_dt` \[s\].
         ///
-        /// The duration has 2³² − 1 ticks, and the `dt` of each sample is rounded up to whole
-        /// ticks. After n samples, the experiment therefore ends early by at most n/2³² of this
+        /// Rounding may end the experiment early, after n samples by at most n/2³² of this
         /// duration.
         pub longest_time: T,
         /// Longest `dt` of a good sample \[s\], positive; for example, five sampling periods.
