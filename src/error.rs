@@ -4,7 +4,7 @@
 
 use core::fmt;
 
-/// Cause of the rejection of a parameter. Every variant contains the name of the parameter or the
+/// The reason for rejecting a parameter. Every variant contains the name of the parameter or the
 /// violated condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -217,8 +217,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// The same compensator with a longest `dt` \[s\], positive; default: no limit.
     ///
-    /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can produce a `dt` of
-    /// about an hour. Every effect with memory (creep, temperature) would then advance by an hour.
+    /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can advance every effect
+    /// with memory (creep, temperature) by about an hour.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.

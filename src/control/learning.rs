@@ -97,10 +97,9 @@ pub struct IterativeLearningInput<T> {
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the error of this sample is used. Set it to `false` if a limit has cut the command,
-    /// the safe command is applied, or the task is different (standing, or a held joint). After a
-    /// cell with more unused than used samples, the errors of the next `lead` cells are ignored as
-    /// well.
+    /// Whether the error of this sample is used. Set it to `false` if the command is limited, the
+    /// safe command is applied, or the task is different (standing, or a held joint). After a cell
+    /// with more unused than used samples, the errors of the next `lead` cells are ignored as well.
     pub learns: bool,
 }
 

@@ -99,8 +99,8 @@ crate::data! {
         pub gain: T,
         /// Leakage to the prior.
         pub leakage: Leakage<T>,
-        /// Prior: the value that the estimate leaks to \[unit of the estimate\]; zero in Nguyen et
-        /// al. (2018).
+        /// Prior: the value towards which the estimate leaks \[unit of the estimate\]; zero in
+        /// Nguyen et al. (2018).
         pub prior: T,
     }
 }

@@ -106,8 +106,8 @@ impl<T: Real> Adaptive<T, 2> {
     ///
     /// The form is as published. The 5 ms filter of e' is not from the paper. The regressors are
     /// velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley. beta_hat starts at
-    /// zero, where the loop is singular, so the output overshoots at start-up (Figure 9). Bounds
-    /// and `beta.initial = 0.8/alpha` avoid this overshoot.
+    /// zero, where the loop is singular, so the output overshoots at start-up (Figure 9). To avoid
+    /// this overshoot, set bounds and `beta.initial = 0.8/alpha`.
     ///
     /// ```
     /// use bowden::control::Adaptive;

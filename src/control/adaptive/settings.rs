@@ -60,7 +60,7 @@ crate::data! {
     ///         24.0, 8.0, 0.05,
     ///     )
     /// };
-    /// // 1 ms is too long with this epsilon: the constructor refuses it.
+    /// // 1 ms is too long with this epsilon: the constructor rejects it.
     /// assert!(Adaptive::try_new(settings).is_err());
     /// assert!((settings.largest_step().unwrap() - 635e-6).abs() < 1e-6);
     /// let wider = AdaptiveSettings { epsilon: 0.1, ..settings };

@@ -15,7 +15,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Processes one sample and returns the command \[command unit\]; call this method once per
     /// sample.
     ///
-    /// The order of a step is:
+    /// A step computes, in this order:
     /// 1. `e = y - y_r`, and `s = e + lambda·z` with z from the previous sample;
     /// 2. the command, from the estimates of the previous sample;
     /// 3. `z⁺ = z + dt·e`, and the estimates from (s, ubar, x), each clamped to its bounds.
