@@ -1,4 +1,4 @@
-//! Checked configurations: constructors at run time and at compile time, and stored forms.
+//! Checked configurations: run-time and compile-time constructors, and serialised forms.
 
 /// The checked constructors of a configuration.
 ///
@@ -10,11 +10,11 @@
 ///     pub fn with_more[self config](argument: T) { … }
 /// }
 /// ```
-/// Each becomes a function for any float and, in [`Constant`](crate::Constant), a `const fn` for
-/// `f32` and for `f64` with the same body: [`constant!`](crate::constant) calls these. A body
-/// names the configuration, not `Self`, and has no `?` and no `for`, which are not constant; `of` and
-/// `as_f64` convert a number. The brackets of a helper hold further generics, such as
-/// `[, const N: usize]`.
+/// Each constructor becomes a generic function and, in [`Constant`](crate::Constant), two
+/// `const fn` with the same body, for `f32` and `f64`. [`constant!`](crate::constant) calls these.
+/// A body uses the name of the configuration instead of `Self`. It contains no `?` and no `for`,
+/// because they are not constant. `of` and `as_f64` convert a number. The brackets of a helper
+/// contain further generics, such as `[, const N: usize]`.
 macro_rules! checked {
     (
         $config:ident<T $(, $n:ident)?>;
@@ -82,10 +82,10 @@ macro_rules! checked {
 }
 pub(crate) use checked;
 
-/// Plain data: the derived traits that each such type has, and its stored form.
+/// Plain data: the derived traits and the serialised form of such a type.
 ///
-/// Reading refuses unknown fields. The names of variants are in kebab case. `<T: Real>` if the
-/// stored form of a field requires this of `T`; the type itself does not.
+/// Deserialising rejects unknown fields. The names of variants are in kebab case. Write `<T: Real>`
+/// if the serialised form of a field requires this bound on `T`; the type itself does not.
 macro_rules! data {
     () => {};
     (
@@ -129,10 +129,10 @@ macro_rules! data {
 }
 pub(crate) use data;
 
-/// A configuration or a state, and its stored form.
+/// A configuration or a state, and its serialised form.
 ///
-/// Deserialising reads the fields, refuses others, and returns what the block after `=>` makes of
-/// them; without a block, the fields themselves if all numbers are finite.
+/// Deserialising reads the fields and rejects unknown ones. The block after `=>` makes the value
+/// from the fields. Without a block, the fields are the value, and all numbers must be finite.
 macro_rules! stored {
     (
         $(#[doc = $doc:expr])*
@@ -203,7 +203,7 @@ macro_rules! stored {
 }
 pub(crate) use stored;
 
-/// Whether all numbers of a state are finite: any other number could persist indefinitely.
+/// Whether all numbers of a state are finite. A NaN or an infinity could persist indefinitely.
 #[cfg_attr(not(any(feature = "serde", kani)), allow(dead_code))]
 pub(crate) trait Finite {
     fn all_finite(&self) -> bool;
@@ -236,7 +236,7 @@ impl<T: crate::Real> Finite for crate::effect::Motion<T> {
     }
 }
 
-/// Parts without numbers, and those that check themselves when they are read.
+/// Types without numbers, and types that are checked when they are deserialised.
 macro_rules! finite_anyway {
     ($([$($generic:tt)*] $kind:ty;)+) => {
         $(impl<$($generic)*> Finite for $kind {
@@ -268,13 +268,13 @@ pub(crate) fn finite<S: Finite>(state: S) -> Result<S, crate::Error> {
     }
 }
 
-/// Default longest dt of a stored form: any.
+/// Default longest `dt` of a serialised form: no limit.
 #[cfg(feature = "serde")]
 pub(crate) fn any_dt<T: crate::Real>() -> T {
     T::HIGHEST
 }
 
-/// The stored form of a configuration that is made of another type: its settings.
+/// The serialised form of a configuration that is made from its settings, which are another type.
 macro_rules! stored_as {
     ($name:ident<T $(, $n:ident)?> as $form:ty: |$it:ident| $to:expr, $from:expr) => {
         #[cfg(feature = "serde")]

@@ -1,11 +1,11 @@
-//! The error type of the crate: the cause and the parameter's name.
+//! The error type of the crate: the cause and the name of the parameter.
 //!
-//! The constructors check all parameters. Afterwards no arithmetic returns a `Result`, and nothing
-//! panics.
+//! The constructors check all parameters. After construction, no step returns a `Result` or panics.
 
 use core::fmt;
 
-/// Cause of a refused parameter. Every variant carries the parameter's name.
+/// The reason for rejecting a parameter. Every variant contains the name of the parameter or the
+/// violated condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -14,7 +14,7 @@ pub enum Error {
     NonFinite(&'static str),
     /// The parameter is finite but outside its documented range.
     OutOfRange(&'static str),
-    /// Each parameter is valid alone, but together they violate the named condition.
+    /// Each parameter is valid on its own, but together they violate this condition.
     Inadmissible(&'static str),
     /// The number of items exceeds the fixed capacity.
     Capacity(&'static str),
@@ -32,7 +32,7 @@ impl fmt::Display for Error {
 }
 
 impl Error {
-    /// The parameter's name, or the violated condition.
+    /// The name of the parameter, or the violated condition.
     #[must_use]
     pub const fn parameter(&self) -> &'static str {
         match self {
@@ -46,12 +46,12 @@ impl Error {
 
 impl core::error::Error for Error {}
 
-/// A configuration that the compiler checks, for a `static` or a `const`.
+/// Makes a configuration for a `static` or a `const`, checked at compile time.
 ///
-/// The arguments are those of the constructors at run time, for `f32` or `f64`. Every configuration
-/// of this crate can be a constant, except models and what holds them. A refused parameter is a
-/// compile error; the compiler's message contains the parameter's name. The configuration is stored
-/// in flash and costs nothing at start-up.
+/// The arguments are the same as at run time, for `f32` or `f64`. The macro supports all
+/// configurations except models and compensators. An invalid parameter is a compile error whose
+/// message contains the name of the parameter. The configuration is stored in flash and needs no
+/// initialisation at start-up.
 ///
 /// ```
 /// use bowden::constant;
@@ -94,7 +94,7 @@ macro_rules! constant {
     };
 }
 
-/// Returns a finite value, refuses NaN and infinities with the parameter's name.
+/// Returns a finite value, or an error with the name of the parameter.
 ///
 /// # Errors
 /// [`Error::NonFinite`] with `name`.
@@ -106,12 +106,12 @@ pub(crate) fn finite<T: crate::Real>(value: T, name: &'static str) -> Result<T, 
     }
 }
 
-/// Marks the surrounding branch as rare: the usual branch needs no jump.
+/// Marks the surrounding branch as rare, so that the usual branch needs no jump.
 #[cold]
 #[inline]
 pub(crate) const fn rarely() {}
 
-/// Whether a number is finite. For several numbers, test their sum: one test for all.
+/// Whether a number is finite. To test several numbers at once, test their sum.
 #[inline]
 #[allow(clippy::eq_op)]
 pub(crate) fn is_usable<T: crate::Real>(sum: T) -> bool {
@@ -130,7 +130,7 @@ macro_rules! must_be_finite {
     };
 }
 
-/// The same for a number that is not finite or not above zero.
+/// The same for a number that is not finite or not positive.
 macro_rules! above_zero {
     ($value:expr, $name:expr) => {
         crate::error::must_be_finite!($value, $name);
@@ -140,7 +140,7 @@ macro_rules! above_zero {
     };
 }
 
-/// The same for a number that is not finite or below zero.
+/// The same for a number that is not finite or negative.
 macro_rules! not_below_zero {
     ($value:expr, $name:expr) => {
         crate::error::must_be_finite!($value, $name);

@@ -3,7 +3,7 @@
 use crate::Real;
 
 crate::data! {
-    /// The bad input of a step, or why a relay experiment failed.
+    /// The bad input of a step, or the reason for the failure of a relay experiment.
     #[derive(Eq, Hash)]
     #[non_exhaustive]
     pub enum Fault {
@@ -11,9 +11,9 @@ crate::data! {
         Dt,
         /// `dt` is zero or negative: time has not advanced.
         DtNotPositive,
-        /// `dt` exceeds the longest `dt` of the configuration, or the stability limit of the law.
+        /// `dt` exceeds the longest `dt` that the configuration accepts.
         DtTooLong,
-        /// The reference, or its next value.
+        /// The reference, or the reference at the next sample.
         Reference,
         /// The measured output.
         Measured,
@@ -23,29 +23,29 @@ crate::data! {
         FeedForward,
         /// The command to resume from.
         Command,
-        /// A regressor, counted from 0.
+        /// The regressor with this index, counted from 0.
         Regressor(u8),
-        /// Every input is finite, but the command could not be computed: an overflow.
+        /// An overflow: every input is finite, but the result is not.
         Overflow,
-        /// The phase of a cycle lies outside 0 to 1, or has jumped.
+        /// The phase of a cycle is not within 0 to 1, or has jumped.
         Phase,
-        /// The position of a sensor.
+        /// The position signal.
         Position,
-        /// The output of a relay experiment was further from the reference than `most_deviation`.
+        /// In a relay experiment, the output deviated from the reference by more than
+        /// `most_deviation`.
         ///
-        /// Choose a smaller amplitude, a centre that holds the reference, or the other sign of the
-        /// amplitude.
+        /// Choose a smaller amplitude, a centre that holds the output at the reference, or an
+        /// amplitude with the opposite sign.
         OutputOutOfRange,
-        /// The `longest_time` of a relay experiment has passed without a complete cycle.
+        /// A relay experiment reached `longest_time` without a complete cycle.
         ///
-        /// The amplitude does not move the output through the reference, its sign is wrong, or the
-        /// time is too short for two periods.
+        /// Possible causes: the amplitude is too small or has the wrong sign, or `longest_time` is
+        /// shorter than two periods.
         NoOscillation,
-        /// The `longest_time` of a relay experiment has passed and the cycles did not agree with
-        /// each other.
+        /// A relay experiment reached `longest_time` before enough successive cycles agreed.
         ///
-        /// The time is too short, the noise exceeds the hysteresis, or a cycle has fewer than
-        /// `2/agreement` samples.
+        /// Possible causes: `longest_time` is too short, the noise exceeds the hysteresis, or a
+        /// cycle has fewer than `2/agreement` samples.
         TimeOut,
     }
 }
@@ -57,7 +57,7 @@ impl Fault {
     }
 }
 
-/// The fault of the sample time, if there is one.
+/// The fault of `dt`, if there is one.
 pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     if !dt.is_finite() {
         Some(Fault::Dt)
@@ -70,7 +70,7 @@ pub(crate) fn fault_of_dt<T: Real>(dt: T, longest: T) -> Option<Fault> {
     }
 }
 
-/// The fault of a number that is not finite.
+/// The fault, if the number is not finite.
 pub(crate) fn unless_finite<T: Real>(number: T, fault: Fault) -> Option<Fault> {
     (!number.is_finite()).then_some(fault)
 }

@@ -1,12 +1,12 @@
 //! Bouc-Wen models of cable transmissions, and torque controllers, for firmware.
 //!
 //! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
-//! on the present input and on earlier inputs. This crate models the friction with a **Bouc-Wen**
-//! hysteresis, whose input is a torque or a displacement, and with a catalogue of further
-//! **effects** such as viscous friction, backlash and creep.
+//! on the present input and on earlier inputs. This crate models the cable with a **Bouc-Wen**
+//! hysteresis of torque or displacement. A catalogue of **effects**, such as viscous friction and
+//! backlash, complements this model.
 //!
-//! The crate is `no_std`, allocates nothing, contains no unsafe code, and is generic over `f32` and
-//! `f64`. Its run-time dependencies are `num-traits` and `libm`.
+//! The crate is `no_std`, allocates no memory, contains no unsafe code, and is generic over `f32`
+//! and `f64`. Its run-time dependencies are `num-traits` and `libm`.
 //!
 //! ```
 //! use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState};
@@ -37,30 +37,27 @@
 //! ```
 //!
 //! # The book
-//! 1. [The idea](book::idea): hysteresis in a cable, and its effect on a torque controller.
-//! 2. [The equations](book::equations): the model, its conventions, and corrections to Nguyen et
-//!    al. (2018).
-//! 3. [Reading a verdict](book::verdict): the results of `bowden identify`, and the next step
-//!    after each.
-//! 4. [Choosing a controller](book::controller): controllers, gains, and cost in instructions.
-//! 5. [From bench to motor](book::motor): the model in firmware, step by step, and the tests on
-//!    the board.
+//! 1. [The idea](book::idea)
+//! 2. [The equations](book::equations)
+//! 3. [Reading a verdict](book::verdict) of `bowden identify`
+//! 4. [Choosing a controller](book::controller)
+//! 5. [From bench to motor](book::motor)
 //!
 //! # Modules
 //! | module | contents | equations |
 //! |---|---|---|
 //! | [`hysteresis`] | the Bouc-Wen state equation, bounded for any step | (2), (7) |
 //! | [`transmission`] | displacement to force, torque to torque, and the inverse | (1), (5), (6) |
-//! | [`effect`] | viscous, Coulomb, Stribeck, backlash, …: one regressor each | |
+//! | [`effect`] | viscous and Coulomb friction, backlash, creep, …: one regressor each | |
 //! | [`model`] | a transmission plus effects: the predicted output | |
 //! | [`control`] | torque controllers that reject bad samples | (14)-(26) |
-//! | [`signal`] | filters, rates of a position, play operator, plausibility checks | |
+//! | [`signal`] | filters, velocity and acceleration, play operator, plausibility checks | |
 //!
 //! The crate `bowden-bound` provides error bounds and stability certificates for the controllers,
-//! (27)-(38).
+//! equations (27) to (38).
 //!
 //! # Conventions
-//! - Configuration and state are two types.
+//! - Configuration and state are separate types.
 //! - `try_new` checks every parameter. After that, nothing panics.
 //! - A bad sample leaves the state unchanged. A sample is bad if it contains a NaN, an infinity, or
 //!   a `dt` that is not positive.
@@ -68,8 +65,8 @@
 //!
 //! # Features
 //! All features are off by default:
-//! - `serde`: deserialising a configuration checks it. A [model](model::Model) has the file format
-//!   that `bowden identify --model-out` writes.
+//! - `serde`: every configuration is checked when it is deserialised. A [model](model::Model) is
+//!   read from the file that `bowden identify --model-out` writes.
 //! - `defmt`: the public types implement `defmt::Format`.
 //! - `std`: the crate links the standard library.
 #![no_std]
@@ -97,11 +94,11 @@ pub(crate) use checked::{checked, data};
 pub use error::Error;
 pub use real::Real;
 
-/// The constructors of a configuration at compile time: [`constant!`] calls them.
+/// The compile-time constructors of the configurations, which [`constant!`] calls.
 #[doc(hidden)]
 pub struct Constant<C>(core::marker::PhantomData<C>);
 
-/// The proofs of this crate; `proofs/README.md` states how to run them.
+/// The proofs of this crate; see `proofs/README.md`.
 #[cfg(kani)]
 #[path = "../proofs/mod.rs"]
 mod proofs;

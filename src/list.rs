@@ -1,4 +1,4 @@
-//! Lists of a fixed capacity for serde, which has no arrays of arbitrary length `N`.
+//! Lists of fixed capacity for serde, which does not support arrays of arbitrary length `N`.
 
 use crate::Error;
 use core::fmt;
@@ -97,7 +97,7 @@ where
     }
 }
 
-/// At most `N` items, and the default instead of the others.
+/// At most `N` items; the free slots hold the default.
 pub(crate) fn padded<'de, X, D, const N: usize>(from: D) -> Result<[X; N], D::Error>
 where
     X: Deserialize<'de> + Default,

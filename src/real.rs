@@ -1,8 +1,8 @@
-//! The float functions that the crate uses, for `f32` and `f64`.
+//! Floating-point functions for `f32` and `f64`.
 //!
 //! Arithmetic, comparison, `abs`, `is_finite` and similar functions come from
-//! [`num_traits::float::FloatCore`]. The elementary functions come from `libm` on every target,
-//! so host and firmware compute the same bits.
+//! [`num_traits::float::FloatCore`]. The elementary functions come from `libm` or from this crate
+//! on every target, so host and firmware compute the same bits.
 
 use core::fmt::{Debug, Display};
 use num_traits::float::FloatCore;
@@ -11,7 +11,7 @@ use num_traits::NumAssign;
 mod angle;
 mod short;
 
-/// Functions of a float that call another one.
+/// Methods of a float, each of which calls one function.
 macro_rules! calls {
     ($($name:ident($($more:ident)?) = $function:path;)+) => {
         $(
@@ -24,19 +24,19 @@ macro_rules! calls {
 }
 pub(crate) use calls;
 
-/// [`Real::from_f64`] under a name that a `const fn` of a constructor can have too.
+/// [`Real::from_f64`] under the name of the `const fn` in the compile-time constructors.
 #[inline]
 pub(crate) fn of<T: Real>(x: f64) -> T {
     T::from_f64(x)
 }
 
-/// [`Real::as_f64`], likewise.
+/// [`Real::as_f64`], for the same reason.
 #[inline]
 pub(crate) fn as_f64<T: Real>(x: T) -> f64 {
     x.as_f64()
 }
 
-/// Further float functions for the hysteresis, not part of the interface.
+/// Further floating-point functions for the hysteresis, not part of the public interface.
 pub(crate) mod sealed {
     use super::short;
 
@@ -46,28 +46,27 @@ pub(crate) mod sealed {
         const SHORT: bool;
         fn log2(self) -> Self;
         fn exp2(self) -> Self;
-        /// The functions of the effects: short if a step must be short, otherwise from libm.
-        /// The base of a power is zero or above, its exponent above zero.
+        /// The functions of the effects: short if a step must be short, otherwise from libm. The
+        /// base of a power is not negative, and the exponent is positive.
         fn short_exp(self) -> Self;
         fn short_pow(self, exponent: Self) -> Self;
         fn short_tanh(self) -> Self;
-        /// tanh with the sign of its argument, and with a magnitude of at most the argument's
-        /// and 1.
+        /// tanh with the sign of its argument x and a magnitude of at most min(|x|, 1).
         fn confined_tanh(self) -> Self;
-        /// Base-2 logarithm by straight lines between the powers of 2.
+        /// Base-2 logarithm, linear between the powers of 2.
         fn coarse_log2(self) -> Self;
-        /// A power by the same straight lines.
+        /// A power, computed with the same linear interpolation.
         fn coarse_power(self, exponent: Self) -> Self;
-        /// The power of 2 at a number above zero, or next below it.
+        /// The largest power of 2 that does not exceed a positive number.
         fn binade(self) -> Self;
-        /// Whether it is above zero and at most `longest`, a number above zero: one comparison
-        /// of bits, which those of negative numbers, infinities and NaN fail.
+        /// Whether the number is positive and at most `longest`, which is positive. One comparison
+        /// of bits excludes negative numbers, infinities and NaN.
         fn positive_up_to(self, longest: Self) -> bool;
-        /// Whether it is above zero and below the highest float, likewise.
+        /// Whether the number is positive and below the highest float, also by one comparison.
         fn positive_below_highest(self) -> bool;
     }
 
-    /// The functions of the bits of a float with these bits of sign and exponent.
+    /// The functions that read the bits of a float, from the mask of its sign and exponent.
     macro_rules! bits {
         ($sign_and_exponent:literal) => {
             #[inline]
@@ -111,7 +110,8 @@ pub(crate) mod sealed {
             short_pow(exponent) = libm::pow;
             short_tanh() = libm::tanh;
         }
-        /// Enforced for any result of libm: its arguments are too many to test.
+        /// The range is enforced for any result of libm, because there are too many arguments to
+        /// test.
         #[inline]
         fn confined_tanh(self) -> Self {
             confined(self, libm::tanh(self))
@@ -128,7 +128,7 @@ pub(crate) mod sealed {
         bits!(0xfff0_0000_0000_0000);
     }
 
-    /// A value of tanh at `x` with x's sign, no further from zero than x and than 1. NaN
+    /// A value of tanh at `x` with the sign of `x` and a magnitude of at most min(|x|, 1). NaN
     /// stays NaN.
     #[inline]
     pub(crate) fn confined(x: f64, value: f64) -> f64 {
@@ -167,7 +167,7 @@ pub trait Real:
     const LOWEST: Self;
     /// The highest finite value.
     const HIGHEST: Self;
-    /// The nearest value to `x`. Used for constants.
+    /// The value nearest to `x`.
     fn from_f64(x: f64) -> Self;
     /// The value as `f64`, exact.
     fn as_f64(self) -> f64;

@@ -1,15 +1,12 @@
-//! The crate as a short book: from the idea to a motor.
+//! A short book about this crate, from the idea to the motor.
 //!
-//! 1. [The idea](idea): hysteresis in a cable, and its effect on a torque controller.
-//! 2. [The equations](equations): the model, its conventions, and corrections to Nguyen et al.
-//!    (2018).
-//! 3. [Reading a verdict](verdict): the results of `bowden identify`, and the next step after
-//!    each.
-//! 4. [Choosing a controller](controller): controllers, gains, and cost in instructions.
-//! 5. [From bench to motor](motor): the model in firmware, step by step, and the tests on the
-//!    board.
+//! 1. [The idea](idea)
+//! 2. [The equations](equations)
+//! 3. [Reading a verdict](verdict)
+//! 4. [Choosing a controller](controller)
+//! 5. [From bench to motor](motor)
 //!
-//! The tests compile and run every program on these pages.
+//! `cargo test` compiles and runs every Rust program on these pages.
 
 #[doc = include_str!("idea.md")]
 pub mod idea {}

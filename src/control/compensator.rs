@@ -4,13 +4,12 @@
 //! tau_i = inverse transmission(desired − Σ gain·regressor, eta)
 //! ```
 //!
-//! The feed-forward supplements a PI or an adaptive law. First the effects are evaluated at the
-//! given motions and subtracted from the desired output; then equations (5)-(7) are inverted
-//! exactly along the path of the hysteresis.
+//! The feed-forward supplements a PI or an adaptive law. A step evaluates the effects at the given
+//! motions and subtracts them from the desired output. It then inverts equations (5) to (7) exactly
+//! along the path of the hysteresis.
 //!
-//! Use the reference as the desired output, not the measured output: a noisy desired output
-//! destroys the hysteresis state ([`transmission`](crate::transmission)). The model runs in open
-//! loop, so its state differs from the plant's state by the model error.
+//! Use the reference as the desired output, not the measured output, because noise corrupts the
+//! hysteresis state ([`transmission`](crate::transmission)).
 
 use super::{Fault, Status};
 use crate::effect::{Effect, Inputs, Motion};
@@ -34,11 +33,11 @@ mod proofs;
 /// One sample for a [`Compensator`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CompensatorInput<'a, T> {
-    /// Time since the previous sample \[s\]; above zero.
+    /// Time since the previous sample \[s\], positive.
     pub dt: T,
     /// Desired output \[output unit\], such as tau_o \[N·m\].
     pub desired: T,
-    /// The present input of the transmission with its rates, for effects that read it.
+    /// The present input of the transmission with its derivatives, for effects that read it.
     pub input: Motion<T>,
     /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
@@ -47,7 +46,7 @@ pub struct CompensatorInput<'a, T> {
 }
 
 impl<T: Real> CompensatorInput<'_, T> {
-    /// A sample for a model whose effects read no motion: `dt` \[s\], `desired`.
+    /// A sample for a model whose effects read no motion, from `dt` \[s\] and `desired`.
     pub fn new(dt: T, desired: T) -> Self {
         Self {
             dt,
@@ -60,17 +59,17 @@ impl<T: Real> CompensatorInput<'_, T> {
 }
 
 crate::data! {
-    /// Output of a [`Compensator`]'s step.
+    /// Output of a step of a [`Compensator`].
     pub struct CompensatorOutput<T> {
-        /// The transmission's input \[input unit\], such as tau_i \[N·m\]; finite.
+        /// Input of the transmission \[input unit\], such as tau_i \[N·m\]; finite.
         pub command: T,
-        /// A good sample, or the fault; a fault holds the last good command.
+        /// Status of the sample; a bad sample holds the last good command.
         pub status: Status,
-        /// Contribution of the effects to the output \[output unit\], zero on a bad sample.
+        /// Contribution of the effects to the output \[output unit\]; zero for a bad sample.
         pub effects: T,
     }
 
-    /// Range of one source in the bench record: the effects do not extrapolate beyond it.
+    /// Range of one source in the bench record, beyond which the effects do not extrapolate.
     ///
     /// ```
     /// use bowden::control::{BenchRange, Compensator};
@@ -90,7 +89,8 @@ crate::data! {
     /// # }
     /// ```
     pub struct BenchRange<T> {
-        /// The source; for [`Source::Input`] the position is the load's range in torque mode.
+        /// The source. For [`Source::Input`] in torque mode, the position range also applies to the
+        /// load.
         pub source: Source,
         /// Minimum of position, velocity and acceleration.
         pub low: Motion<T>,
@@ -126,15 +126,16 @@ impl<T: Real> BenchRange<T> {
 
 /// The inverse of a model as a feed-forward.
 ///
-/// It computes the input for which the model produces the desired output.
+/// A step computes the input for which the model produces the desired output.
 ///
 /// Two rules apply to effects that depend on the result:
 /// - An effect that reads the transmission's input or the load uses the values in the sample, for
-///   example the last command. Each sample is then one step of an iteration, which converges if the
-///   slope of the effect over these values is below the gain of the cable.
+///   example the last command. Each sample is then one step of an iteration. The iteration
+///   converges if the slope of the effect with respect to these values is below the gain of the
+///   cable.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
-/// Without such effects the model's output for `command` is `desired`, except for rounding.
+/// Without such effects, the output of the model for `command` is `desired`, up to rounding errors.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
@@ -163,7 +164,7 @@ impl<T: Real> BenchRange<T> {
 pub struct Compensator<T, const N: usize> {
     transmission: Transmission<T>,
     inverse: Inverse<T>,
-    /// The terms alone: a model without a transmission.
+    /// The terms as a model without a transmission.
     effects: Model<T, N>,
     input_range: Option<BenchRange<T>>,
     term_ranges: [Option<BenchRange<T>>; N],
@@ -182,8 +183,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///   it; or
     /// - a term is an input stage (a play in series), whose inverse jumps.
     ///
-    /// [`try_nearest`](Self::try_nearest) accepts such a model and returns the changes that it
-    /// makes.
+    /// In the last three cases, [`try_nearest`](Self::try_nearest) changes the model so that it has
+    /// an inverse, and returns the changes.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
@@ -201,7 +202,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Self::of(transmission, model.without_transmission())
     }
 
-    /// A compensator of both parts, without ranges, longest `dt` and play.
+    /// A compensator from both parts, without ranges, longest `dt` and play.
     fn of(transmission: Transmission<T>, effects: Model<T, N>) -> Result<Self, Error> {
         Ok(Self {
             transmission,
@@ -214,11 +215,10 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         })
     }
 
-    /// The same compensator with a longest `dt` \[s\]: a longer `dt` is a bad sample; default: no
-    /// limit.
+    /// The same compensator with a longest `dt` \[s\], positive; default: no limit.
     ///
-    /// Without a limit, a wrapped counter would advance every memory of the model (creep,
-    /// temperature) by an hour.
+    /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can advance every effect
+    /// with memory (creep, temperature) by about an hour.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -229,18 +229,18 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { longest_dt, ..self })
     }
 
-    /// The same compensator with a [`Play`] on the desired torque of the cable. Its half-width
-    /// \[output unit\] is zero (no play) or more.
+    /// The same compensator with a [`Play`] on the desired output of the cable. The half-width
+    /// \[output unit\] is not negative; zero means no play.
     ///
-    /// After each reversal the inverse is steep, the more so the nearer kappa_eta is to the bound
-    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
-    /// was fitted *at* this bound (`bowden identify --invertible`), the steepness has no limit.
+    /// After each reversal the inverse is steep. Its slope increases as kappa_eta approaches the
+    /// bound of [`Transmission::inverse`](crate::transmission::Transmission::inverse), and is
+    /// unlimited for a model that was fitted *at* this bound (`bowden identify --invertible`).
     ///
-    /// A term that reads a velocity from encoder counts therefore makes the command chatter,
-    /// because it reverses the desired torque from sample to sample. A play removes these
-    /// reversals. Choose its half-width a little above half of one count's effect on the output:
-    /// `|gain|·count/(2·time constant)` with velocities from [`Rates`](crate::signal::Rates). The
-    /// model's output then equals `desired` to within the half-width.
+    /// A term that reads a velocity from encoder counts reverses the desired output from sample to
+    /// sample, so the command chatters. A play removes these reversals. Choose its half-width
+    /// slightly above half the effect of one count on the output. With velocities from
+    /// [`Rates`](crate::signal::Rates), this value is `|gain|·count/(2·time constant)`. The output
+    /// of the model then equals `desired` to within the half-width.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -251,12 +251,11 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// The same compensator with motions clamped to the bench range of each source.
     ///
-    /// The clamp prevents extrapolation beyond the fitted data. Sources without a range are not
-    /// clamped. If a source has two ranges, the later one applies.
+    /// Sources without a range are not clamped. If a source has two ranges, the later one applies.
     ///
     /// # Errors
-    /// [`Error::NonFinite`]; [`Error::Inadmissible`] if `low > high` or if no term reads the
-    /// channel.
+    /// [`Error::NonFinite`] if a range is not finite; [`Error::Inadmissible`] if `low > high` or if
+    /// no term reads the source.
     pub fn with_ranges(mut self, ranges: &[BenchRange<T>]) -> Result<Self, Error> {
         for range in ranges {
             range.check()?;
@@ -286,8 +285,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 
     /// Processes one sample and returns the input for which the model's output is `desired`.
     ///
-    /// A bad sample holds the last good command, zero before the first one. It leaves the state
-    /// unchanged except for the count of bad samples. A sample is bad if
+    /// A bad sample holds the last good command, and leaves the state unchanged except for the
+    /// count of bad samples. The command is zero before the first good sample. A sample is bad if
     /// - `dt` is not positive or too long,
     /// - the desired output or a number that a term reads is not finite, or
     /// - a channel is missing.
@@ -311,8 +310,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         }
     }
 
-    /// Advances the state by a good sample and returns the share of the effects; otherwise
-    /// returns the fault and leaves the state unchanged.
+    /// Advances the state by a good sample and returns the contribution of the effects. For a bad
+    /// sample, returns the fault and leaves the state unchanged.
     fn advance(
         &self,
         state: &mut CompensatorState<T, N>,
@@ -376,7 +375,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
 }
 
 crate::checked::stored! {
-    /// State of a [`Compensator`]: the hysteresis, the play and the memories of the effects.
+    /// State of a [`Compensator`]: the hysteresis, the play and the states of the effects.
     ///
     /// ```
     /// use bowden::control::CompensatorState;
@@ -385,7 +384,7 @@ crate::checked::stored! {
     /// ```
     pub struct CompensatorState<T, const N: usize> {
         hysteresis: BoucWenState<T>,
-        /// The hysteresis before the last sample, from which the cable's input has moved.
+        /// The hysteresis before the last sample.
         before: BoucWenState<T>,
         effects: ModelState<T, N>,
         #[serde(default = "PlayState::new")]
@@ -406,7 +405,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
     /// A new state that starts from the hysteresis state `eta` of the cable.
     ///
     /// # Errors
-    /// Those of [`BoucWenState::with_eta`]: `eta` is not finite or lies outside −1 to 1.
+    /// The errors of [`BoucWenState::with_eta`]: `eta` is not finite or lies outside −1 to 1.
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }
@@ -432,7 +431,7 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
         self.hysteresis.eta()
     }
 
-    /// Number of bad samples in a row; saturates at `u32::MAX`.
+    /// Number of consecutive bad samples; saturates at `u32::MAX`.
     pub fn consecutive_bad(&self) -> u32 {
         self.bad
     }

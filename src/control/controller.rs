@@ -6,24 +6,24 @@ use super::{
 use crate::Real;
 
 crate::data! {
-    /// Output of a step: of a controller, of [`IterativeLearning`](super::IterativeLearning), or of a
-    /// [`DisturbanceObserver`](super::DisturbanceObserver).
+    /// Output of a step of a controller, of [`IterativeLearning`](super::IterativeLearning), or of
+    /// a [`DisturbanceObserver`](super::DisturbanceObserver).
     pub struct Output<T> {
-        /// Command for the drive, or the value to add to it \[command unit\]: finite and within the
-        /// limits.
+        /// Command for the drive, or the value to add to the command \[command unit\]; finite and
+        /// within the limits.
         pub command: T,
-        /// Status of the sample: good, or the fault and the substitute command.
+        /// Status of the sample: good, or the fault.
         pub status: Status,
     }
 }
 
-/// Output of a step with every term of the law.
+/// Output of a step, with all terms of the control law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Telemetry<T, M> {
-    /// Command for the drive \[command unit\]: finite and within the limits.
+    /// Command for the drive \[command unit\]; finite and within the limits.
     pub command: T,
-    /// Status of the sample: good, or the fault and the substitute command.
+    /// Status of the sample: good, or the fault.
     pub status: Status,
     /// The terms: [`PidTerms`](super::PidTerms) of the last good sample, or
     /// [`AdaptiveTerms`](super::AdaptiveTerms).
@@ -41,11 +41,11 @@ impl<T> Output<T> {
     }
 }
 
-/// One sample for any controller; each controller reads the fields that it needs.
+/// One sample for any controller, which reads the fields that it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoopSample<'a, T> {
-    /// Time since the last call \[s\], also after a bad sample.
+    /// Time since the last call \[s\], even if the sample of that call was bad.
     pub dt: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
@@ -56,7 +56,7 @@ pub struct LoopSample<'a, T> {
     pub measured: T,
     /// Measured distal velocity \[rad/s\]; only PIV reads it.
     pub velocity: T,
-    /// Regressors of an adaptive law; a missing regressor makes the sample bad.
+    /// Regressors of an adaptive law; a missing regressor counts as NaN.
     pub regressors: &'a [T],
     /// Feed-forward, added to the command before the limits \[command unit\].
     pub feed_forward: T,
@@ -96,8 +96,8 @@ impl<T: Real> LoopSample<'_, T> {
 /// assert!(tick(&pi, &mut state, &LoopSample::new(0.001, 1.0, 0.5)) > 15.0);
 /// ```
 pub trait Controller<T: Real> {
-    /// State between samples; `Copy`, so it can be saved. After a power-off, pass a stored
-    /// state through [`restore`](Self::restore) before its first step.
+    /// State between samples. After a power-off, call [`restore`](Self::restore) on a stored state
+    /// before its first step.
     type State: Copy;
 
     /// A new state, before the first sample.
@@ -107,26 +107,27 @@ pub trait Controller<T: Real> {
     /// the limits for any state.
     fn step(&self, state: &mut Self::State, at: &LoopSample<'_, T>) -> Output<T>;
 
-    /// Prepares a stored state for a start after a power-off: the command becomes the permitted
-    /// command nearest to zero. The estimates of an adaptive law are kept; a fault that is not
-    /// acknowledged remains.
+    /// Prepares a stored state for a start after a power-off. The command becomes the value nearest
+    /// to zero within the limits. The estimates of an adaptive law and an unacknowledged fault are
+    /// kept.
     fn restore(&self, state: &mut Self::State);
 
-    /// Starts so that the command continues from `output` \[command unit\] without a jump.
+    /// Restarts a state so that the command continues from `output` \[command unit\] without a
+    /// jump.
     ///
-    /// If the safe command is latched, this call does nothing. A state from [`start`](Self::start)
-    /// has no fault. To switch from one law to another, check [`is_latched`](Self::is_latched) of
-    /// the old law, and switch only if the old law is not latched.
+    /// A latched safe command stays latched. A state from [`start`](Self::start) has no fault, so
+    /// before you switch to another control law, check that the old law is not
+    /// [latched](Self::is_latched).
     fn resume_from(&self, state: &mut Self::State, output: T, at: &LoopSample<'_, T>) -> Status;
 
-    /// Reports the drive's response to the last command, if the drive did not apply it.
+    /// Reports the drive's response to the last command if the drive did not apply the command.
     fn applied(&self, state: &mut Self::State, applied: Applied<T>);
 
     /// Acknowledges the fault: the next good sample closes the loop again, starting from the
     /// safe command.
     fn acknowledge(&self, state: &mut Self::State);
 
-    /// Whether the safe command is applied until the fault is acknowledged.
+    /// Whether the safe command is latched until the fault is acknowledged.
     fn is_latched(&self, state: &Self::State) -> bool;
 
     /// The applied command \[command unit\].
@@ -150,7 +151,7 @@ impl<T: Real> From<&LoopSample<'_, T>> for PidInput<T> {
 }
 
 impl<T: Real, const N: usize> From<&LoopSample<'_, T>> for AdaptiveInput<T, N> {
-    /// A regressor that is not there is NaN.
+    /// A missing regressor is NaN.
     #[inline]
     fn from(at: &LoopSample<'_, T>) -> Self {
         let mut regressors = [T::nan(); N];

@@ -1,31 +1,29 @@
-//! Iterative learning: a feed-forward from the error of earlier cycles of a repeating task.
+//! Iterative learning control: a feed-forward from the error of earlier cycles.
 //!
 //! ```text
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal width in phase; e is the mean of `reference − measured`
-//! over a cell. The feed-forward interpolates linearly between the learned values at the middles of
-//! the cells. A cell learns `lead + half_width` cells after its end, when all required errors are
-//! known. This spreads the cost over the cycle, so a gait or a wheel needs no pause between cycles.
+//! A cycle is divided into cells of equal phase width, and e is the mean of `reference − measured`
+//! over a cell. The feed-forward interpolates linearly between the learned values at the centres of
+//! the cells. The learned value of a cell is updated `lead + half_width` cells after the end of the
+//! cell, when all required errors are known.
 //!
-//! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has
-//! zero phase, and its gain lies between 0 and 1 for every tone (Fejér's kernel):
+//! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has zero
+//! phase, and its gain is between 0 and 1 at every frequency (Fejér kernel):
 //!
 //! ```text
 //! Q(f) = (sin(M·x)/(M·sin(x)))², x = pi·f/(cells per second)
 //! ```
-//! Its gain is 0.71 for a tone at 0.32·(cells per second)/M.
+//! The gain is 0.71 at the frequency 0.32·(cells per second)/M.
 //!
-//! The learned value of a cell is limited, and so is the mean over cells, so the feed-forward lies
-//! within ±limit for any input. *Convergence* depends on gain, lead, Q and the loop
-//! (`IterativeLearningConvergence` of `bowden-bound`).
+//! The learned values are clamped, so the feed-forward is within ±limit for any input.
+//! *Convergence* depends on the gain, the lead, the filter and the loop; see
+//! `IterativeLearningConvergence` of `bowden-bound`.
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison
-//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015. In the
-//! second paper, a proportional law with such a feed-forward had the smallest error of nine
-//! methods.
+//! of torque control methods on an ankle exoskeleton during human walking", *ICRA* 2015.
 
 use super::{Fault, Output, Status};
 use crate::error::{above_zero, must_be_finite, not_below_zero, rarely};
@@ -46,17 +44,17 @@ mod proofs;
 /// Most cells that one sample may skip.
 const MOST_PASSED: usize = 4;
 
-/// Samples of a cell after which its mean counts as known. In `f32` a sum of many more would be
-/// wrong, for example after hours without motion.
+/// Samples of a cell after which further samples are ignored. In `f32`, a sum of many more would be
+/// inaccurate, for example after hours without motion.
 const MOST_SAMPLES: f64 = 65_536.0;
 
 crate::checked::stored! {
-    /// Iterative learning over a repeating cycle: gain, lead, filter, limit, forgetting.
+    /// Iterative learning control over a repeating cycle: gain, lead, filter, limit and forgetting.
     ///
-    /// The learned values are stored in two buffers of the same length, one number per cell: arrays, or
-    /// borrowed slices. A gait of 200 cells in `f32` takes 1600 bytes. Use about ten cells per second
-    /// for each hertz of the filter's corner frequency, but fewer cells than samples in the shortest
-    /// cycle.
+    /// The learned values are stored in two buffers (arrays or borrowed slices) of the same length,
+    /// with one number per cell. A cycle of 200 cells in `f32` requires 1600 bytes. Use about ten
+    /// cells per second for each hertz of the filter's corner frequency, but fewer cells than
+    /// samples in the shortest cycle.
     ///
     /// ```
     /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
@@ -93,20 +91,20 @@ crate::checked::stored! {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct IterativeLearningInput<T> {
-    /// Phase of the cycle, from 0 to 1; 1 equals 0 of the next cycle.
+    /// Phase of the cycle, from 0 to 1. Phase 1 equals phase 0 of the next cycle.
     pub phase: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,
-    /// Whether the law learns from this sample. Set `false` if a limit has cut the command, the
+    /// Whether the error of this sample is used. Set it to `false` if the command is limited, the
     /// safe command is applied, or the task is different (standing, or a held joint). After a cell
-    /// in which it is mostly `false`, the law also ignores the errors of the next `lead` cells.
+    /// with more unused than used samples, the errors of the next `lead` cells are ignored as well.
     pub learns: bool,
 }
 
 impl<T: Real> IterativeLearningInput<T> {
-    /// A sample from which the law learns.
+    /// A sample whose error is used.
     pub const fn new(phase: T, reference: T, measured: T) -> Self {
         Self {
             phase,
@@ -120,10 +118,13 @@ impl<T: Real> IterativeLearningInput<T> {
 crate::checked! {
     IterativeLearning<T>;
 
-    /// Learning without forgetting. `gain` of the error \[command unit/output unit\] is not zero
-    /// and has the sign of the plant's gain. `limit > 0` bounds the learned values \[command
-    /// unit\]. `lead` is the number of cells between a command and its effect; `half_width` is the
-    /// half-width of the triangle \[cells\].
+    /// Iterative learning without forgetting.
+    ///
+    /// - `gain` multiplies the error \[command unit/output unit\]. It is nonzero and must have the
+    ///   sign of the plant's gain.
+    /// - `limit` is positive and bounds the magnitude of the learned values \[command unit\].
+    /// - `lead` is the number of cells between a command and its effect.
+    /// - `half_width` is the half-width of the triangle \[cells\]; 0 means no filter.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"` or `"limit"`.
@@ -137,9 +138,9 @@ crate::checked! {
         Ok(IterativeLearning { gain, limit, lead, half_width, forgetting })
     }
 
-    /// The same law, but each cycle removes a share (0 to 1) of each learned value.
+    /// The same settings, but each cycle removes a share (0 to 1) of each learned value.
     ///
-    /// With forgetting, values that do not repeat decay, and an error remains.
+    /// With forgetting, values that do not repeat decay, but an error remains.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
@@ -166,7 +167,7 @@ impl<T: Real> IterativeLearning<T> {
         self.limit
     }
 
-    /// Number of cells from a command to its effect.
+    /// Number of cells between a command and its effect.
     pub const fn lead(&self) -> u16 {
         self.lead
     }
@@ -176,7 +177,7 @@ impl<T: Real> IterativeLearning<T> {
         self.half_width
     }
 
-    /// Share of a learned value that is forgotten per cycle.
+    /// Share of a learned value that each cycle removes.
     pub const fn forgetting(&self) -> T {
         self.forgetting
     }
@@ -189,8 +190,8 @@ impl<T: Real> IterativeLearning<T> {
     /// Checks the number of cells.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] with fewer than [`fewest_cells`](Self::fewest_cells);
-    /// [`Error::Capacity`] with more than [`MOST_CELLS`](Self::MOST_CELLS).
+    /// [`Error::Inadmissible`] if there are fewer than [`fewest_cells`](Self::fewest_cells);
+    /// [`Error::Capacity`] if there are more than [`MOST_CELLS`](Self::MOST_CELLS).
     pub fn check_cells(&self, cells: usize) -> Result<(), Error> {
         if cells < self.fewest_cells() {
             return Err(Error::Inadmissible(
@@ -203,7 +204,7 @@ impl<T: Real> IterativeLearning<T> {
         Ok(())
     }
 
-    /// A new state over two buffers with one number per cell; both are set to zero.
+    /// A new state with two buffers of one number per cell; both buffers are set to zero.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the buffers differ in length; otherwise the errors of
@@ -218,9 +219,9 @@ impl<T: Real> IterativeLearning<T> {
         self.resume(learned, unfiltered)
     }
 
-    /// A state with the learned values of the first buffer, such as a copy of
-    /// [`IterativeLearningState::learned`] from before a reset. Values are clamped to the
-    /// limit, and NaN becomes zero.
+    /// A state that continues from the learned values in the first buffer, such as a stored copy of
+    /// [`IterativeLearningState::learned`]. The values are clamped to the limit, and NaN becomes
+    /// zero.
     ///
     /// # Errors
     /// The same as [`start`](Self::start).
@@ -249,29 +250,28 @@ impl<T: Real> IterativeLearning<T> {
 
     /// Processes one sample and returns the value to add to the command at this phase.
     ///
-    /// The status is [`Status::Degraded`] if the feed-forward belongs to this phase, but the error
-    /// was unusable or the phase has jumped. [`Status::Held`] means that the phase is invalid: the
-    /// last feed-forward stays.
+    /// [`Status::Degraded`] means that the feed-forward belongs to this phase, but the error was
+    /// unusable or the phase has jumped. [`Status::Held`] means that the phase is invalid and the
+    /// last feed-forward is held.
     ///
-    /// Call this method at every sample, before the controller, with the state of this learning.
-    /// For any state and buffers the feed-forward is finite and within ±limit. A jump of the phase
-    /// causes a jump of the feed-forward. A slew-rate limit in the controller's
-    /// [`Limits`](crate::control::Limits) bounds the rate of the sum.
+    /// Call this method at every sample, before the controller. For any state and buffers, the
+    /// feed-forward is finite and within ±limit. A slew-rate limit in the controller's
+    /// [`Limits`](crate::control::Limits) smooths the jump that follows a jump of the phase.
     ///
-    /// - A phase outside 0 to 1 changes nothing and holds the feed-forward. The controller counts
-    ///   such samples as good, so the fallback does not act. If the phase signal can fail, omit the
-    ///   feed-forward after a few such samples.
+    /// - A phase outside 0 to 1 holds the feed-forward. The controller does not detect this fault,
+    ///   so its fallback does not act. If the phase signal can fail, omit the feed-forward after a
+    ///   few such samples.
     /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
-    ///   and the law does not learn from the sample.
-    /// - A jump is more than four cells forward or back in one sample. After a jump, the cell
-    ///   before it does not learn. The `lead` cells before the new cell do not learn either,
-    ///   because they were skipped and the errors do not belong to them. A walking step that ends
-    ///   early at heel contact is such a jump; the last `lead + half_width` cells before it do not
-    ///   learn.
-    /// - While the phase is up to four cells behind (jitter), the law does not learn. With larger
-    ///   jitter the phase passes cells several times, and the law learns each time; in that case
-    ///   filter the phase, or set `learns` to `false`.
-    /// - The most expensive step completes four cells, each a sum over `2·half_width + 1` cells.
+    ///   and the sample is not used.
+    /// - A change by more than four cells in one sample, forward or back, is a jump. The cell
+    ///   before a jump and the `lead` cells before the new cell do not learn. A walking step that
+    ///   ends early at heel contact is such a jump: the last `lead + half_width` cells before it do
+    ///   not learn.
+    /// - While the phase is up to four cells behind (jitter), the samples are not used. With larger
+    ///   jitter, cells learn several times per cycle. In this case, filter the phase, or set
+    ///   `learns` to `false`.
+    /// - The most expensive step completes four cells, each with a sum over `2·half_width + 1`
+    ///   cells.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,

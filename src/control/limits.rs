@@ -7,8 +7,8 @@ use crate::{Error, Real};
 crate::checked::stored! {
     /// Range \[command unit\] and slew-rate limit \[command unit/s\] of a command.
     ///
-    /// In a stored form a missing `slew` means no slew-rate limit. The range need not be symmetric.
-    /// [`Limits::unlimited`] is the range of the float itself, so a command is always finite.
+    /// The range need not be symmetric. In the serialised form, a missing `slew` means no slew-rate
+    /// limit.
     ///
     /// ```
     /// use bowden::control::Limits;
@@ -42,15 +42,14 @@ crate::checked! {
         Ok(Limits { low, high, slew })
     }
 
-    /// The same range with a slew-rate limit above zero \[command unit/s\].
+    /// The same range with a positive slew-rate limit \[command unit/s\].
     ///
-    /// A slew-rate limit below `2·k_p·noise·rate` also acts on the response to noise, and the loop
-    /// may oscillate. Here noise is the largest change of the measured output between samples, and
-    /// rate is the number of samples per second. Choose a higher slew-rate limit or a smaller gain.
+    /// A slew-rate limit below `2·k_p·noise·rate` also limits the response to noise, and the loop
+    /// may oscillate. Here, `noise` is the largest change of the measured output between samples,
+    /// and `rate` is the sampling rate \[Hz\]. Choose a higher slew-rate limit or a smaller gain.
     ///
-    /// In `f32` the distance between neighbouring floats is about 1.2e-7 of the command. If
-    /// `slew·dt` is below this distance, a sample moves the command by one such distance or not at
-    /// all.
+    /// In `f32`, the spacing of neighbouring floats is about 1.2e-7 of the command. If `slew·dt` is
+    /// smaller, a sample moves the command by one spacing or not at all.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
@@ -62,7 +61,7 @@ crate::checked! {
 }
 
 impl<T: Real> Limits<T> {
-    /// Every finite command: for a simulation, not for a machine.
+    /// All finite commands, for a simulation and not for a machine.
     pub const fn unlimited() -> Self {
         Self {
             low: T::LOWEST,
@@ -95,8 +94,8 @@ impl<T: Real> Limits<T> {
     /// The command nearest to `wanted` that is reachable from `last` within `dt` \[s\].
     ///
     /// The result always lies within the range, even if `last` does not, and within `slew·dt` of
-    /// `last` if the range permits. NaN in `wanted`, or in `last` if it is needed, stays NaN;
-    /// controllers reject such a number earlier.
+    /// `last` if the range permits. If `wanted` is NaN, the result is NaN. If `last` is NaN, the
+    /// slew-rate limit has no effect.
     #[inline]
     #[must_use]
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {
@@ -110,8 +109,8 @@ impl<T: Real> Limits<T> {
         clamp(reachable, self.low, self.high)
     }
 
-    /// The command within the range that is nearest to `command`. For NaN it is the one nearest
-    /// to zero.
+    /// The value within the range that is nearest to `command`. For NaN, it is the value nearest to
+    /// zero.
     #[inline]
     #[must_use]
     pub fn clamp(&self, command: T) -> T {

@@ -1,35 +1,33 @@
 //! Torque controllers that reject bad samples.
 //!
-//! Configuration and state are separate types. `try_new` checks a configuration once; the
-//! configuration never changes afterwards and can be stored in flash. A state is `Copy` and can be
-//! saved and restored. Call `step` once per sample with the time since the last call; this time may
-//! vary.
+//! Configuration and state are separate types. `try_new` checks a configuration once. The
+//! configuration is then constant and can be stored in flash. A state can be saved and restored.
+//! Call `step` once per sample with the time since the last call; this time may vary.
 //!
 //! **Bad samples.** A sample is bad if
 //! - a measurement, the reference or `dt` is NaN or infinite, or
 //! - `dt` is not positive or exceeds the longest `dt` of the configuration.
 //!
-//! A bad sample leaves the state unchanged and holds the last good command; the [`Status`]
-//! names the bad input. After too many bad samples the [`Fallback`] applies its safe command
-//! and latches it until [`acknowledge`](Controller::acknowledge). The command is finite and
-//! within the [`Limits`] for any state. Use [`signal::Plausible`](crate::signal::Plausible) in
-//! front of a controller to reject finite but implausible numbers.
+//! A bad sample leaves the state unchanged and holds the last good command. The [`Status`] reports
+//! the bad input. After too many bad samples, the [`Fallback`] applies its safe command and latches
+//! it until [`acknowledge`](Controller::acknowledge) is called. The command is finite and within
+//! the [`Limits`] for any state. To reject finite but implausible numbers, pass each input through
+//! [`signal::Plausible`](crate::signal::Plausible).
 //!
 //! **In flash.** [`constant!`](crate::constant) makes a checked `static` or `const` of every
-//! configuration, for `f32` and `f64`. Only a [`Compensator`] is built at run time, because it
-//! holds a [`Model`](crate::model::Model).
+//! configuration except a [`Compensator`], which contains a [`Model`](crate::model::Model).
 //!
 //! | controller | description | equations |
 //! |---|---|---|
 //! | [`Pid`] | PI, PID, PIV | (14)-(16) |
 //! | [`Adaptive`] | robust adaptive law with any number of regressors | (17)-(26) |
 //! | [`Compensator`] | inverse of the identified model as a feed-forward | (5)-(7) |
-//! | [`DisturbanceObserver`] | estimate of friction and load, added through a feed-forward | |
-//! | [`IterativeLearning`] | feed-forward learned from the error of earlier cycles | |
-//! | [`Relay`] | relay experiment that measures ultimate gain and period, for PI gains | |
+//! | [`DisturbanceObserver`] | estimate and compensation of friction and load | |
+//! | [`IterativeLearning`] | feed-forward from the error of earlier cycles of a repeating task | |
+//! | [`Relay`] | relay experiment that measures the ultimate gain and period, for PI gains | |
 //!
-//! [`Controller`] is the common interface of the first two rows. [`law`] contains the equations of the
-//! adaptive law, one function each.
+//! [`Controller`] is the common interface of [`Pid`] and [`Adaptive`]. [`law`] contains the
+//! equations of the adaptive law, one function for each term.
 
 mod adaptive;
 mod compensator;

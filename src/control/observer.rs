@@ -6,18 +6,17 @@
 //! d_hat = Q·u_sent − Q·P⁻¹·y                    added to the next command
 //! ```
 //!
-//! The observer subtracts the command that the nominal plant needs for the measured output from the
-//! applied command, filters the difference through Q, and adds it to the next command. Below
-//! `1/tau` the loop then sees the nominal plant instead of the plant with friction, as long as no
-//! limit is active.
+//! The observer compares the applied command with the command that the nominal plant needs for the
+//! measured output. The difference, filtered through Q, is added to the next command. At
+//! frequencies below `1/tau`, the loop then behaves as if the plant were the nominal plant, unless
+//! a limit is active.
 //!
-//! The observer needs no friction model, but it needs alpha, wn and zeta, from the drive's
-//! specification or from a bench record. The adaptive law needs none of these parameters.
+//! The observer needs alpha, wn and zeta from the drive's specification or from a bench record.
 //!
-//! Connect the estimate to a controller's `feed_forward`; its own limit bounds it for any input.
-//! Combine it with the nominal plant's inverse along the reference
-//! ([`NominalPlant::feed_forward`]), but not with an identified model
-//! ([`Compensator`](super::Compensator)): both would compensate the friction.
+//! Add the estimate to a controller's `feed_forward`. The limit of the observer bounds the estimate
+//! for any input. You can also add the command of the nominal plant for the reference
+//! ([`NominalPlant::feed_forward`]). Do not add the command of a
+//! [`Compensator`](super::Compensator), because the friction would be compensated twice.
 //!
 //! Source: T. Umeno, Y. Hori, "Robust speed control of DC servomotors using modern two
 //! degrees-of-freedom controller design", *IEEE Trans. Industrial Electronics* 38(5), 1991.
@@ -40,19 +39,21 @@ use state::{lag, Lags};
 mod proofs;
 
 crate::checked::stored! {
-    /// The observer: nominal plant, filter, latency, and the limit of its estimate.
+    /// A disturbance observer: nominal plant, filter, latency, and limit of the estimate.
     ///
-    /// With `s = dt/(tau + dt)` for both lags of Q, in the implicit form of
-    /// [`Derivative`](crate::signal::Derivative), and `h/L` for the latency L:
+    /// Both lags of Q have the implicit form of [`Derivative`](crate::signal::Derivative), with
+    /// `s = h/(tau + h)`. The lag for the latency L has the factor `min(h/L, 1)`. Here h is the
+    /// time since the last good sample:
     ///
     /// ```text
     /// w0⁺ = w0 + min(h/L, 1)·(u_sent − w0)    w1⁺ = w1 + s·(w0⁺ − w1)    w2⁺ = w2 + s·(w1⁺ − w2)
     ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
     /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
     /// ```
-    /// The lags are stable at any `dt`, which may vary. The loop around them requires a `dt` well below
-    /// tau. Without a latency the command still affects the output one sample later. Above `1/tau`,
-    /// white noise on y reaches the command with a factor of about `1/(alpha·(wn·tau)²)`.
+    /// The lags are stable for any `dt`, which may vary, but the closed loop requires a `dt` well
+    /// below tau. Even with zero latency, the command affects the output only at the next sample.
+    /// Above `1/tau`, white noise on y reaches the command with a factor of about
+    /// `1/(alpha·(wn·tau)²)`.
     ///
     /// ```
     /// use bowden::control::{
@@ -97,10 +98,10 @@ crate::checked::stored! {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverInput<T> {
-    /// Time since the last call \[s\], also after a bad sample.
+    /// Time since the last call \[s\], even if the sample of that call was bad.
     pub dt: T,
-    /// The applied command of the last call \[command unit\]: after all limits, including a
-    /// held or a safe command.
+    /// The applied command of the last call \[command unit\], after all limits. It may be a held or
+    /// safe command.
     pub sent: T,
     /// Measured output y \[output unit\], such as \[N·m\].
     pub measured: T,
@@ -109,12 +110,13 @@ pub struct ObserverInput<T> {
 crate::checked! {
     DisturbanceObserver<T>;
 
-    /// An observer without latency. `time_constant > 0` is tau of Q \[s\], `limit > 0` bounds the
-    /// estimate \[command unit\], and a `dt` above `longest_dt > 0` \[s\] is a bad sample.
+    /// An observer without latency. `time_constant > 0` is tau of Q \[s\], and `limit > 0` bounds
+    /// the magnitude of the estimate \[command unit\]. A `dt` above `longest_dt > 0` \[s\] is a bad
+    /// sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`, `"limit"` or
-    /// `"longest_dt"`. The name is also `"time_constant"` if `1/(alpha·(wn·tau)²)` or
+    /// `"longest_dt"`. A `time_constant` is also out of range if `1/(alpha·(wn·tau)²)` or
     /// `2·zeta/(alpha·wn·tau)` is not finite.
     pub fn try_new(plant: NominalPlant<T>, time_constant: T, limit: T, longest_dt: T) {
         above_zero!(time_constant, "time_constant");
@@ -132,10 +134,12 @@ crate::checked! {
     }
 
     /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
-    /// The latency covers whole samples of delay, half a sample for the zero-order hold, and the
-    /// lags of drive and sensor. The latency excludes the response of the nominal plant.
     ///
-    /// The observer delays the command by a lag of this time before the comparison.
+    /// The latency is the sum of the delays in whole samples, half a sample for the zero-order
+    /// hold, and the lags of drive and sensor. It does not include the response of the nominal
+    /// plant.
+    ///
+    /// Before the comparison, the observer delays the command by a lag with this time constant.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"latency"`.
@@ -173,11 +177,10 @@ impl<T: Real> DisturbanceObserver<T> {
 
     /// Processes one sample and returns the estimate to add to the next command.
     ///
-    /// Call this method at every sample, before the controller. A bad sample holds the estimate,
-    /// and its time is added to the next good sample. A sample is bad if `dt` is not positive or
-    /// too long, or if the command or the output is not finite. If the `dt` of a bad sample is
-    /// unusable, its time counts as equal to the next `dt`. For any state the estimate is finite
-    /// and within ±limit.
+    /// Call this method at every sample, before the controller. A sample is bad if `dt` is not
+    /// positive or too long, or if the command or the output is not finite. A bad sample holds the
+    /// estimate, and its `dt` is added to the next `dt`. If the `dt` itself is unusable, the next
+    /// `dt` counts twice. For any state, the estimate is finite and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Output<T> {
         let status = if self.advance(state, at) {
@@ -218,8 +221,8 @@ impl<T: Real> DisturbanceObserver<T> {
         true
     }
 
-    /// The fault of a sample. Without one, the lags overflow now or did before: they restart at
-    /// the next sample.
+    /// The fault of a sample. If its numbers are good, the lags overflow and restart at the next
+    /// sample.
     fn refused(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Fault {
         let fault = fault_of_dt(at.dt, self.longest_dt)
             .or_else(|| unless_finite(at.sent, Fault::Command))

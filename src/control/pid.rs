@@ -1,4 +1,4 @@
-//! PI, PID and PIV controllers, equations (14)-(16), with anti-windup and fault handling.
+//! PID, PI and PIV controllers, equations (14) to (16), with anti-windup and fault handling.
 //!
 //! ```text
 //! e = y − y_r
@@ -7,15 +7,13 @@
 //! command = u within the range and the slew-rate limit
 //! ```
 //!
-//! - `dt` may vary from call to call, up to the longest `dt`. The derivative uses the implicit
-//!   first-order lag, which is stable for any `dt`: see [`Derivative`].
+//! - `dt` may vary from call to call, up to the longest `dt`. The derivative uses an implicit
+//!   first-order lag, which is stable for any `dt`; see [`Derivative`].
 //! - The integral is stored as a command, so a change of `k_i` does not move the command.
-//!   It is a compensated sum: in `f32` a plain sum stops once its increments are below half an
-//!   ulp.
-//! - The anti-windup treats the slew-rate limit and the range differently; see [`AntiWindup`].
-//! - A bad sample leaves the state unchanged and holds the command; see [`Status`]. The
-//!   derivative bridges the gap, and the integral does not count the time of the gap. After too
-//!   many bad samples the safe command is applied until [`PidState::acknowledge`].
+//!   Compensated summation prevents the loss of small increments in `f32`.
+//! - [`AntiWindup`] lists the anti-windup methods.
+//! - A bad sample leaves the state unchanged and holds the command; see [`Status`]. After a gap of
+//!   bad samples, the derivative includes the time of the gap, and the integral does not.
 //!
 //! Source: section 3.1 of Nguyen et al. (2018); Åström & Hägglund, *Advanced PID Control*, 2006.
 
@@ -36,7 +34,7 @@ use crate::Real;
 use state::Last;
 use step::stopped;
 
-/// A PI, PID or PIV controller, equations (14)-(16); checked, immutable.
+/// A PID, PI or PIV controller, equations (14) to (16).
 ///
 /// ```
 /// use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState, Status};
@@ -75,16 +73,15 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The PI (15) of Nguyen et al. (2018), Table 1: `k_p` = 30, `k_i` = 18. It has no limits.
+    /// The PI of Nguyen et al. (2018), Table 1: `k_p` = 30, `k_i` = 18, without command limits.
     pub fn paper_pi() -> Self {
         Self::assumed(PidSettings::unlimited(T::from_f64(30.0), T::from_f64(18.0)))
     }
 
-    /// The PID (14) of Nguyen et al. (2018), Table 1: `k_d` = 2, filtered over 0.1 s. It has no
-    /// limits.
+    /// The PID of Nguyen et al. (2018), Table 1: `k_d` = 2, without command limits.
     ///
-    /// The paper does not specify the derivative filter; on the reference rig, the loop diverges
-    /// with a time constant below 20 ms.
+    /// The paper does not specify a derivative filter. Here, the time constant is 0.1 s. On the
+    /// reference rig, the loop diverges with a time constant below 20 ms.
     pub fn paper_pid() -> Self {
         Self::assumed(PidSettings {
             k_d: T::from_f64(2.0),
@@ -94,7 +91,7 @@ impl<T: Real> Pid<T> {
         })
     }
 
-    /// The PIV (16) of Nguyen et al. (2018), Table 1: `k_d` = 10 on the distal velocity. It has no
+    /// The PIV of Nguyen et al. (2018), Table 1: `k_d` = 10 on the distal velocity, without command
     /// limits.
     pub fn paper_piv() -> Self {
         Self::assumed(PidSettings {
@@ -134,8 +131,7 @@ impl<T: Real> Pid<T> {
         self.exception(state, &sample)
     }
 
-    /// The same step, with every term for telemetry: the result of [`terms`](Self::terms) after the
-    /// step.
+    /// The same step, with all terms for telemetry: the [`terms`](Self::terms) after the step.
     pub fn step_with_terms(
         &self,
         state: &mut PidState<T>,
@@ -144,7 +140,7 @@ impl<T: Real> Pid<T> {
         self.step(state, at).with(self.terms(state))
     }
 
-    /// Every term of the last good sample; all terms are zero before the first one.
+    /// All terms of the last good sample; zero before the first good sample.
     #[must_use]
     pub fn terms(&self, state: &PidState<T>) -> PidTerms<T> {
         let Some(last) = &state.last else {
@@ -163,12 +159,12 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The limit that acts on the command (range or slew-rate limit), for an outer loop.
+    /// The limit that acts on the command (range or slew-rate limit), for the outer loop of a
+    /// cascade.
     ///
-    /// Pass the result to [`applied`](Self::applied) of the outer loop: if the gains of this law
-    /// are positive and the command is at its upper limit, a larger output of the outer loop has no
-    /// effect. The result is the same whether the range cuts the command or the integral just fills
-    /// the range.
+    /// Pass the result to [`applied`](Self::applied) of the outer loop. If the inner loop has
+    /// positive gains and its command is at the upper limit, a larger output of the outer loop has
+    /// no effect. A command that equals a limit of the range counts as limited.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
         let (command, limits) = (state.command(), &self.settings.limits);
@@ -186,11 +182,11 @@ impl<T: Real> Pid<T> {
     /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
-    /// start then continue from the applied command. The integral reverses the part of its last
-    /// change that exceeds the drive's limit, except with [`AntiWindup::None`]. With
-    /// back-calculation, the part that the drive cut off returns to the integral. The next command
-    /// still contains the full demand, so a drive that has recovered is used at once. See
-    /// [`Applied`].
+    /// start then continue from the applied command. With back-calculation and a known applied
+    /// command, the integral is corrected by the part that the drive cut off. In all other cases
+    /// except [`AntiWindup::None`], the last change of the integral is reversed as far as it
+    /// exceeds the drive's limit. The next command still contains the full demand, so the loop
+    /// recovers as soon as the drive does. See [`Applied`].
     pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
         let out = state.command();
         let (less, sent) = match applied {
@@ -225,14 +221,14 @@ impl<T: Real> Pid<T> {
 
     /// Continues a running state with other settings, without a jump of the command.
     ///
-    /// Every setting may differ. The integral moves as little as possible: at the last good sample
-    /// the new terms add up to the applied command, or to a value beyond a limit that cuts off both
-    /// the old and the new sum. The next command differs only by one step of the integral. Limits
-    /// that exclude the command take priority.
+    /// All settings may change. The integral changes only as far as necessary: at the last good
+    /// sample, the new terms add up to the applied command. If a limit cuts off both the old and
+    /// the new sum, the new sum may lie beyond this limit. The next command differs only by one
+    /// step of the integral. If the new limits exclude the command, the limits take priority.
     ///
-    /// A law without `k_i` returns the integral to zero: see [`PidSettings::k_i`]. A change to PIV
-    /// requires earlier samples with a velocity. Without a good sample nothing changes. If the sum
-    /// overflows, the integral stays unchanged.
+    /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before a change
+    /// to PIV, pass samples with a velocity. Without an earlier good sample, or if the sum
+    /// overflows, the state does not change.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidSettings, PidState};
@@ -284,7 +280,7 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The velocity that the law reads; zero if the law reads none. It may be NaN.
+    /// The velocity that the law reads, which may be NaN; zero if the law reads none.
     fn velocity(&self, at: &PidInput<T>) -> T {
         match self.settings.damping {
             DerivativeSource::Velocity => at.velocity,

@@ -1,4 +1,4 @@
-//! The relay experiment: measures ultimate gain and period in closed loop, for PI gains.
+//! Relay experiment: measures the ultimate gain and period of a loop, for PI gains.
 //!
 //! ```text
 //! command = centre + d   from y < y_r − eps on, until y > y_r + eps
@@ -8,30 +8,27 @@
 //! ```
 //! A relay with hysteresis eps makes the loop oscillate near its ultimate frequency, with an
 //! amplitude that depends on the level d. The amplitude a is half the distance from the lowest to
-//! the highest output of a cycle, and D is the share of the period in which the command is `centre
-//! + d`. [`Ultimate::pi`] turns k_u and T_u into the gains of a [`Pid`](super::Pid).
+//! the highest output of a cycle. D is the share of the period in which the command is
+//! `centre + d`. [`Ultimate::pi`] computes the gains of a [`Pid`](super::Pid) from k_u and T_u.
 //!
-//! - **Describing function.** The formula uses the first harmonic of the command only. Compared
+//! - **Describing function.** The formula uses only the first harmonic of the command. Compared
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
-//!   with delay the error is −19 % (short delay) to +28 % (long delay), and −11 % for a delay equal
-//!   to the time constant.
-//! - **Hysteresis** makes the cycle slower: T_u is too long and k_u too low, which is conservative. With
+//!   with delay, the error is between −19 % (short delay) and +28 % (long delay). It is −11 % if
+//!   the delay equals the time constant.
+//! - **Hysteresis.** A hysteresis makes T_u too long and k_u too low, which is conservative. With
 //!   eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is several times eps.
 //! - **Asymmetric cycles.** A load or a bias makes the half-periods unequal. The first harmonic of
-//!   such a command is `4·d/pi·sin(pi·D)`; without the sine, k_u would be too high. The even
-//!   harmonics increase a, so k_u is too low: by 5 % for 1/(s + 1)³ and D = 0.62. If the mean
-//!   command `centre + d·(2·D − 1)` is used as the next centre, the half-periods become equal.
-//! - **Sampling.** The relay switches at the sample after the crossing, up to one `dt` late. The
-//!   measured period is the true period of this sampled loop, which is longer than that of a
-//!   continuous relay: by two `dt` on average and by four `dt` at most. A sampled controller has
-//!   the same average delay of half a `dt`, so no correction is necessary.
+//!   such a command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low: by 5 %
+//!   for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
+//!   `centre + d·(2·D − 1)` as the next centre.
+//! - **Sampling.** The relay switches up to one `dt` after the crossing. The measured period is
+//!   therefore two `dt` longer on average than the period with a continuous relay, and at most four
+//!   `dt` longer. A sampled controller has the same average delay, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
-//!   sign, the output leaves its range or the relay never switches back. The experiment then fails
-//!   with `OutputOutOfRange` or `NoOscillation`.
-//! - **Duration.** Every sample, good or bad, consumes part of an integer time budget, so the
-//!   experiment ends within `longest_time`. A sample without a usable `dt` consumes `longest_dt`.
-//!   After a success the relay applies the centre; a failure latches the safe command until
-//!   [`RelayState::acknowledge`].
+//!   sign, the experiment fails with `OutputOutOfRange` or `NoOscillation`.
+//! - **Duration.** The experiment ends within `longest_time`, because bad samples count as well. A
+//!   sample without a usable `dt` counts as `longest_dt`. A failure latches the safe command until
+//!   [`RelayState::acknowledge`] is called.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
 //! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay
@@ -55,10 +52,10 @@ use state::{Cycle, Mean};
 #[path = "../../proofs/relay.rs"]
 mod proofs;
 
-/// A relay experiment for the tuning of a PI loop; checked, immutable.
+/// A relay experiment for tuning a PI.
 ///
-/// Start with the output near the reference: at the mean command of the previous loop, or at rest.
-/// Afterwards, resume a [`Pid`](super::Pid) from the applied command.
+/// Start with the output near the reference: at the mean command of the previous controller, or at
+/// rest. Afterwards, resume a [`Pid`](super::Pid) from the applied command.
 ///
 /// ```
 /// use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState, PiRule};
@@ -116,16 +113,15 @@ impl<T: Real> Relay<T> {
         &self.settings
     }
 
-    /// Processes one sample. `dt` is the time since the last call \[s\], also after a bad sample;
-    /// `measured` is the measured output \[output unit\].
+    /// Processes one sample: the time `dt` since the last call \[s\], and the measured output
+    /// \[output unit\].
     ///
-    /// The status is [`Status::Held`] after a bad sample, and [`Status::Safe`] after a failure. The
-    /// experiment has succeeded as soon as [`RelayState::result`] is there; the relay then applies
-    /// the centre.
+    /// The status is [`Status::Held`] for a bad sample, and [`Status::Safe`] after a failure. After
+    /// a success, [`RelayState::result`] returns the result, and the relay applies the centre.
     ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
-    /// holds the command, and its time counts. If its `dt` is not usable, the remaining time
-    /// decreases by `longest_dt`, and the cycle with this sample is not averaged.
+    /// holds the command. If its `dt` is not usable, the average excludes the cycle with this
+    /// sample.
     pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Output<T> {
         let s = &self.settings;
         let status = match state.held.latched(&s.fallback) {
@@ -181,8 +177,7 @@ impl<T: Real> Relay<T> {
         state.held.fail(reason, safe)
     }
 
-    /// The part of the budget that a time above zero takes: at least one tick, so the budget
-    /// decreases at every sample.
+    /// The ticks of a positive time: at least one, so the remaining time decreases at every sample.
     fn ticks(&self, time: T) -> u32 {
         let share = time / self.settings.longest_time;
         let ticks = (share * T::from_f64(f64::from(u32::MAX))).to_u32();

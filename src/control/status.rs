@@ -19,8 +19,8 @@ crate::data! {
     pub enum Status {
         /// All inputs were good; the state has advanced.
         Good,
-        /// A regressor was bad and its term was dropped; the loop is closed, and the estimates do not
-        /// change. For [`IterativeLearning`](crate::control::IterativeLearning): the error was
+        /// A regressor was bad, and its term was dropped. The loop is closed, and the estimates do
+        /// not change. For [`IterativeLearning`](crate::control::IterativeLearning), the error was
         /// unusable, or the phase has jumped.
         Degraded(Fault),
         /// A bad sample: the state is unchanged, and the last good command is held.
@@ -28,7 +28,7 @@ crate::data! {
         /// Too many bad samples: the safe command is applied until
         /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
         ///
-        /// The value is the fault of the sample that brought the fault counter to its limit.
+        /// The value is the fault of the last of these samples.
         Safe(Fault),
     }
 }
@@ -47,13 +47,13 @@ impl Status {
 crate::checked::stored! {
     /// The safe command after repeated bad samples.
     ///
-    /// A bad sample adds the weight to a fault counter, and a good sample subtracts 1. At
-    /// `after·weight` the safe command is applied and latched, that is,
-    /// - at the `after`-th bad sample in a row, and
-    /// - at the latest after any n samples with B bad ones if `(weight + 1)·B − n ≥ after·weight`.
+    /// A bad sample adds `weight` to a fault counter, and a good sample subtracts 1. When the
+    /// counter reaches `after·weight`, the safe command is applied and latched. This happens
+    /// - at the `after`-th consecutive bad sample, and
+    /// - at the latest after n samples of which B are bad, if `(weight + 1)·B − n ≥ after·weight`.
     ///
-    /// With weight 4 the second condition is met if more than one sample in five is bad for long
-    /// enough. A single good sample does not reset the counter.
+    /// With a weight of 4, the second condition is met if more than one sample in five is bad for
+    /// long enough.
     ///
     /// ```
     /// use bowden::control::Fallback;
@@ -82,8 +82,7 @@ crate::checked::stored! {
     }
 }
 
-/// Default number of good samples that cancel a bad one: the safe command is then applied if
-/// more than one sample in five stays bad.
+/// Default number of good samples that cancel a bad sample.
 const WEIGHT: u32 = 4;
 
 crate::checked! {
@@ -91,13 +90,12 @@ crate::checked! {
 
     /// Applies the safe command \[command unit\] from the `after`-th consecutive bad sample onward.
     ///
-    /// The safe command ignores the slew-rate limit, because the machine needs it at once. The safe
-    /// command is applied until it is acknowledged; the first good sample after the acknowledgement
-    /// starts from the safe command.
+    /// The safe command ignores the slew-rate limit, because it must act at once. The first good
+    /// sample after an acknowledgement starts from the safe command.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] with `"safe command"`; [`Error::OutOfRange`] with `"after"` if that is
-    /// zero.
+    /// [`Error::NonFinite`] with `"safe command"`; [`Error::OutOfRange`] with `"after"` if `after`
+    /// is zero.
     pub fn try_new(after: u32, command: T) {
         if after == 0 {
             return Err(Error::OutOfRange("after"));
@@ -107,13 +105,12 @@ crate::checked! {
         Ok(Fallback { after, weight, most, command: Some(command) })
     }
 
-    /// The same fallback with `weight` good samples to cancel a bad one; default: 4.
+    /// The same fallback with `weight` good samples to cancel a bad sample; default: 4.
     ///
-    /// With a weight of 1, every second sample may be bad without a fault. A weight of 0 is
-    /// refused, because the fault counter would never rise.
+    /// With a weight of 1, every second sample may be bad without triggering the safe command.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] with `"weight"`.
+    /// [`Error::OutOfRange`] with `"weight"` if `weight` is zero.
     pub fn with_weight[self fallback](weight: u32) {
         if weight == 0 {
             return Err(Error::OutOfRange("weight"));
@@ -134,12 +131,12 @@ impl<T: Real> Fallback<T> {
         }
     }
 
-    /// Number of bad samples in a row after which the safe command is applied.
+    /// Number of consecutive bad samples after which the safe command is applied.
     pub const fn after(&self) -> u32 {
         self.after
     }
 
-    /// Number of good samples that cancel a bad one.
+    /// Number of good samples that cancel a bad sample.
     pub const fn weight(&self) -> u32 {
         self.weight
     }
@@ -182,10 +179,10 @@ crate::data! {
 
     /// The drive's response to the last command.
     ///
-    /// A controller assumes that the drive applies its command. Report any other response between two
-    /// steps. Examples are an open safety relay, a current limit in the drive, and an inner loop at its
-    /// limit. The slew-rate limit, anti-windup and a bumpless start then continue from the applied
-    /// command.
+    /// A controller assumes that the drive applies its command. Report any other response between
+    /// two steps. Examples are an open safety relay, a current limit in the drive, or an inner loop
+    /// at its limit. The slew-rate limit, anti-windup and a bumpless start then continue from the
+    /// applied command.
     ///
     /// ```
     /// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
@@ -204,29 +201,29 @@ crate::data! {
     /// These methods accept the response: [`Pid::applied`](super::Pid::applied),
     /// [`AdaptiveState::applied`](super::AdaptiveState::applied),
     /// [`Controller::applied`](super::Controller::applied) and
-    /// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. A
-    /// [`DisturbanceObserver`](super::DisturbanceObserver) reads the command from `sent`.
-    /// [`IterativeLearning`](super::IterativeLearning) reads `learns`.
+    /// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. For a
+    /// [`DisturbanceObserver`](super::DisturbanceObserver), pass the applied command as `sent`. For
+    /// [`IterativeLearning`](super::IterativeLearning), set `learns`.
     ///
-    /// Use `AsCommanded` if the drive deviates slightly from the command for a reason other than a
-    /// limit (an offset, a measured current). `Command` with such a value would stop the integral until
-    /// the difference is zero.
+    /// Report `AsCommanded` if the drive deviates slightly from the command for a reason other than
+    /// a limit (an offset, a measured current). `Command` with such a value would stop the integral
+    /// until the difference is zero.
     pub enum Applied<T> {
         /// The drive applied the command.
         AsCommanded,
         /// The drive applied this command \[command unit\]; a number that is not finite is ignored.
         Command(T),
-        /// The drive applied less than the command, by an unknown amount. The integral does not
+        /// The drive applied an unknown command below the requested one. The integral does not
         /// rise.
         AtUpperLimit,
-        /// The drive applied more than the command, by an unknown amount. The integral does not
+        /// The drive applied an unknown command above the requested one. The integral does not
         /// fall.
         AtLowerLimit,
     }
 }
 
 crate::checked::stored! {
-    /// The applied command, the score of the bad samples, and whether the loop is closed.
+    /// The applied command, the fault counter, and whether the loop is closed.
     #[derive(Default)]
     pub(crate) struct Held<T> {
         pub(crate) command: T,
@@ -247,7 +244,7 @@ impl<T: Real> Held<T> {
     /// Whether a good sample may set the command. If bad samples are remembered, this sample
     /// counts as good until [`bad_after_step`](Self::bad_after_step) reports otherwise.
     ///
-    /// The usual step therefore checks the latch alone, and not the fault counter.
+    /// The usual step therefore checks the latch and not the fault counter.
     #[inline]
     pub(crate) fn may_step(&mut self) -> bool {
         if self.latch == Latch::Closed {
@@ -311,8 +308,7 @@ impl<T: Real> Held<T> {
         *self = self.remembering();
     }
 
-    /// The same if the latch states whether bad samples are remembered. In a stored state the
-    /// latch may not.
+    /// The same, with a latch that agrees with the fault counter; in a stored state, it may not.
     #[must_use]
     pub(crate) fn remembering(self) -> Self {
         let latch = match self.latch {

@@ -1,17 +1,17 @@
-//! Sine and cosine for `f32` without a double: a microcontroller with a single-precision
-//! floating-point unit computes a double in software.
+//! Sine and cosine for `f32` in single precision only, because a microcontroller with a
+//! single-precision floating-point unit computes double precision in software.
 //!
-//! The angle is reduced exactly, in integers, by the bits of 2/pi that its exponent selects.
-//! The largest error, 1.6 units in the last place, therefore holds at every finite argument.
-//! `cargo test --test exhaustive -- --ignored` checks it at all arguments up to 1e4, and at one
-//! in sixteen beyond.
+//! The angle is reduced exactly, in integer arithmetic, with the bits of 2/pi that its exponent
+//! selects. The error is therefore at most 1.6 units in the last place at every finite argument.
+//! `cargo test --test exhaustive -- --ignored` checks this bound at all arguments up to 1e4, and at
+//! every sixteenth larger argument.
 //!
 //! Source: M. H. Payne, R. N. Hanek, "Radian reduction for trigonometric functions",
 //! *SIGNUM Newsletter* 18(1), 1983.
 
 use core::f32::consts::FRAC_PI_4;
 
-/// The bits of 2/pi behind the point, after 32 zeros.
+/// The bits of 2/pi after the binary point, preceded by 32 zeros.
 const TWO_OVER_PI: [u32; 8] = [
     0x0000_0000,
     0xa2f9_836e,
@@ -25,24 +25,24 @@ const TWO_OVER_PI: [u32; 8] = [
 /// pi/4 in units of 2^-32.
 const QUARTER: i64 = 0xc90f_daa2;
 const MANTISSA: u32 = 23;
-/// The exponent's bits of 1.
+/// The exponent bits of 1.
 const BIAS: u32 = 127;
 
-/// Sine of an angle in radians; NaN of NaN and infinities.
+/// Sine of an angle in radians; NaN for NaN and infinities.
 #[inline]
 pub(super) fn sin(x: f32) -> f32 {
     let (quadrant, rest) = reduce(x);
     at_quadrant(quadrant, rest)
 }
 
-/// Cosine of an angle in radians; NaN of NaN and infinities.
+/// Cosine of an angle in radians; NaN for NaN and infinities.
 #[inline]
 pub(super) fn cos(x: f32) -> f32 {
     let (quadrant, rest) = reduce(x);
     at_quadrant(quadrant.wrapping_add(1), rest)
 }
 
-/// `sin(quadrant·pi/2 + rest)`, `rest` within pi/4.
+/// `sin(quadrant·pi/2 + rest)`, with `rest` within ±pi/4.
 #[inline]
 fn at_quadrant(quadrant: u32, rest: f32) -> f32 {
     let square = rest * rest;

@@ -1,20 +1,21 @@
-//! Base-2 logarithm and exponential for `f32`, short enough for a control loop.
+//! Elementary functions for `f32` with few instructions, for a control loop.
 //!
-//! Each takes about 20 instructions on a Cortex-M4F, with one division and no table. The hysteresis
-//! uses them for its powers: its bound |eta| <= 1 holds for any power function, and the error of
-//! these functions is a few roundings.
+//! The base-2 logarithm and exponential take about 20 instructions each on a Cortex-M4F, with at
+//! most one division and no table. The hysteresis computes its powers with them; its bound |eta| <=
+//! 1 holds for any power function.
 //!
 //! | function | arguments | largest error |
 //! |---|---|---|
-//! | [`log2`] | every normal number above zero | 3.7e-7 of the result |
+//! | [`log2`] | every positive normal number | 3.7e-7 of the result |
 //! | [`exp2`] | -126 to 127 | 2.9e-7 of the result |
-//! | [`coarse_log2`] | every normal number above zero | 0.0861 |
+//! | [`coarse_log2`] | every positive normal number | 0.0861 |
 //! | [`coarse_power`] | 0 to 1 to the power of 0 to 30 | 0.112 |
 //! | [`exp`] | -87 to 88 | 8e-8·abs(x) + 3e-7 of the result |
 //! | [`tanh`] | all | 4e-7 of the result |
 //!
-//! `cargo test --test exhaustive -- --ignored` checks the table at all arguments, the power at
-//! every eighth. For any other argument each function returns an arbitrary float.
+//! `cargo test --test exhaustive -- --ignored` checks the table at all arguments, and the power at
+//! every eighth argument. For an argument outside these ranges, each function returns an arbitrary
+//! float.
 
 use core::f32::consts::{LN_2, LOG2_E};
 
@@ -24,13 +25,13 @@ const ONE: i32 = 0x3f80_0000;
 const LEAST: i32 = 0x3f35_04f3;
 /// Bits of a mantissa.
 const MANTISSA: u32 = 23;
-/// 1.5·2²³: the sum with a number within ±2²² ends in the nearest integer.
+/// 1.5·2²³: in the sum with a number within ±2²², the low bits are the nearest integer.
 const ROUND: f32 = 12_582_912.0;
 
-/// Base-2 logarithm of a normal number above zero.
+/// Base-2 logarithm of a positive normal number.
 ///
-/// `x = 2^k·m`, `m` in `[sqrt(1/2), sqrt(2))`; `log2(m)` is the odd series of
-/// `(m - 1)/(m + 1)`, so it is exact to rounding next to 1, too.
+/// `x = 2^k·m` with `m` in `[sqrt(1/2), sqrt(2))`. An odd series of `(m - 1)/(m + 1)` gives
+/// `log2(m)`, with a small relative error near 1 as well.
 #[inline]
 pub(super) fn log2(x: f32) -> f32 {
     let bits = x.to_bits() as i32;
@@ -42,9 +43,10 @@ pub(super) fn log2(x: f32) -> f32 {
     exponent as f32 + s * series
 }
 
-/// 2 to the power of `y`; below -126 as at -126.
+/// 2 to the power of `y`; the value at -126 for `y` below -126.
 ///
-/// The nearest integer goes into the exponent; a polynomial that is 1 at zero takes the rest.
+/// The nearest integer goes into the exponent. A polynomial that is 1 at zero computes the power of
+/// the remainder.
 #[inline]
 pub(super) fn exp2(y: f32) -> f32 {
     let y = if y > -126.0 { y } else { -126.0 };
@@ -61,14 +63,14 @@ pub(super) fn exp2(y: f32) -> f32 {
     f32::from_bits(series.to_bits().wrapping_add(exponent))
 }
 
-/// e to the power of `x`; above 88 as at 88, of NaN as below -87.
+/// e to the power of `x`; the value at 88 for `x` above 88 and for NaN.
 #[inline]
 pub(super) fn exp(x: f32) -> f32 {
     let x = if x < 88.0 { x } else { 88.0 };
     exp2(x * LOG2_E)
 }
 
-/// A number, zero or above, to a power above zero.
+/// A non-negative number to a positive power.
 #[inline]
 pub(super) fn pow(x: f32, exponent: f32) -> f32 {
     if x > 0.0 {
@@ -79,7 +81,7 @@ pub(super) fn pow(x: f32, exponent: f32) -> f32 {
     }
 }
 
-/// Hyperbolic tangent: its series below 0.3, else from the exponential.
+/// Hyperbolic tangent, by its series if |x| is below 0.3, otherwise by the exponential.
 #[inline]
 pub(super) fn tanh(x: f32) -> f32 {
     let size = f32::from_bits(x.to_bits() & 0x7fff_ffff);
@@ -92,15 +94,15 @@ pub(super) fn tanh(x: f32) -> f32 {
     f32::from_bits(value.to_bits() | (x.to_bits() & 0x8000_0000))
 }
 
-/// Base-2 logarithm with straight lines between the powers of 2.
+/// Base-2 logarithm, linear between the powers of 2.
 #[inline]
 pub(super) fn coarse_log2(x: f32) -> f32 {
     (x.to_bits() as i32).wrapping_sub(ONE) as f32 * (1.0 / 8_388_608.0)
 }
 
-/// `x` to the power of `exponent` by straight lines between the powers of 2. The result is 1 if
-/// the exponent is 0, and `x` to rounding if it is 1. It is not above zero if it would be below
-/// 2^-127.
+/// `x` to the power of `exponent`, linear between the powers of 2. The result is 1 if the exponent
+/// is 0, and `x` up to a rounding error if the exponent is 1. A result that would be below 2^-127
+/// is not positive.
 #[inline]
 pub(super) fn coarse_power(x: f32, exponent: f32) -> f32 {
     let log = (x.to_bits() as i32).wrapping_sub(ONE) as f32;

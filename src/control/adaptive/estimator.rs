@@ -9,27 +9,28 @@ crate::data! {
     pub enum Leakage<T> {
         /// No leakage: only the bounds limit the estimate.
         None,
-        /// Leakage at `rate` \[1/s\] at all times: the sigma of (24)-(26).
+        /// Constant leakage at `rate` \[1/s\], the sigma in (24) to (26).
         Constant {
-            /// Leakage \[1/s\], not negative.
+            /// Leakage rate \[1/s\], not negative.
             rate: T,
         },
-        /// Leakage only if the estimate is further than `bound` from its prior (Remark 1).
+        /// Leakage only while the estimate differs from its prior by more than `bound` (Remark 1).
         ///
-        /// The rate rises from zero at `bound` to `rate` at twice the bound. This leakage is the
-        /// switching sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*, 8.4.1. It
-        /// causes no bias if the true value lies within the bound.
+        /// The leakage rate rises from zero at `bound` to `rate` at twice this distance. This is
+        /// the switching sigma-modification of P. Ioannou, J. Sun, *Robust Adaptive Control*,
+        /// 8.4.1. It causes no bias if the true value lies within `bound` of the prior.
         Switching {
-            /// Leakage beyond twice the bound \[1/s\], not negative.
+            /// Leakage rate beyond twice the distance `bound` \[1/s\], not negative.
             rate: T,
-            /// Distance from the prior without leakage \[unit of the estimate\], above zero.
+            /// Distance from the prior up to which there is no leakage \[unit of the estimate\],
+            /// positive.
             bound: T,
         },
     }
 }
 
 impl<T: Real> Leakage<T> {
-    /// The rate \[1/s\] at a distance from the prior \[unit of the estimate\].
+    /// The leakage rate \[1/s\] at a distance from the prior \[unit of the estimate\].
     ///
     /// ```
     /// use bowden::control::Leakage;
@@ -57,7 +58,7 @@ impl<T: Real> Leakage<T> {
         }
     }
 
-    /// The largest rate \[1/s\].
+    /// The largest leakage rate \[1/s\].
     #[must_use]
     pub const fn rate(&self) -> T {
         match *self {
@@ -68,13 +69,12 @@ impl<T: Real> Leakage<T> {
 }
 
 crate::data! {
-    /// Adaptation of one estimate `p`: (24)-(26) in sampled time, with bounds.
+    /// Adaptation of one estimate `p`: equations (24) to (26) in sampled time, with bounds.
     ///
-    /// `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, then clamped to `[low, high]`. Here v is
-    /// the input from the law (`-lambda·s·x` for a regressor x). The leakage is implicit, so it cannot
-    /// overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does not depend
-    /// on h. The update is computed as an increment and summed with compensation, so a slow leakage
-    /// does not stall in f32.
+    /// The update is `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, clamped to `[low, high]`.
+    /// Here v is the excitation (`-lambda·s·x` for a regressor x). The leakage is implicit, so it
+    /// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
+    /// not depend on h. Compensated summation prevents slow leakage from stalling in `f32`.
     ///
     /// ```
     /// use bowden::control::{Estimator, Leakage};
@@ -95,11 +95,12 @@ crate::data! {
         pub low: T,
         /// Upper bound \[unit of the estimate\].
         pub high: T,
-        /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
+        /// Adaptation gain: gamma, mu or mu_i in (24) to (26), not negative.
         pub gain: T,
         /// Leakage to the prior.
         pub leakage: Leakage<T>,
-        /// Prior, the target of the leakage \[unit of the estimate\]; zero in Nguyen et al. (2018).
+        /// Prior: the value towards which the estimate leaks \[unit of the estimate\]; zero in
+        /// Nguyen et al. (2018).
         pub prior: T,
     }
 }
@@ -117,7 +118,7 @@ impl<T: Real> Estimator<T> {
         }
     }
 
-    /// An estimate without bounds, as in the paper: only its leakage limits it.
+    /// An estimate without bounds, as in the paper: only the leakage limits it.
     pub const fn free(initial: T) -> Self {
         Self::fixed(initial).within(T::LOWEST, T::HIGHEST)
     }
@@ -128,9 +129,10 @@ impl<T: Real> Estimator<T> {
         Self { low, high, ..self }
     }
 
-    /// The same estimate with a gain, and a leakage \[1/s\] to the prior.
+    /// The same estimate with an adaptation gain and a constant leakage \[1/s\].
     ///
-    /// This method requires bounds: [`within`](Self::within) or [`free`](Self::free).
+    /// Set bounds with [`within`](Self::within), or start from [`free`](Self::free): an estimate
+    /// with a gain requires `low < high`.
     #[must_use]
     pub const fn adapting(self, gain: T, leakage: T) -> Self {
         let leakage = Leakage::Constant { rate: leakage };
@@ -141,14 +143,14 @@ impl<T: Real> Estimator<T> {
         }
     }
 
-    /// Whether a value \[unit of the estimate\] lies within the bounds; NaN does not.
+    /// Whether a value \[unit of the estimate\] lies within the bounds; false for NaN.
     #[must_use]
     pub fn contains(&self, value: T) -> bool {
         self.low <= value && value <= self.high
     }
 
-    /// The estimate after `dt` \[s\] with the input `v`, within its bounds. If it overflows,
-    /// its carry is not finite.
+    /// The estimate after `dt` \[s\] with the excitation `v`, within its bounds. If the estimate
+    /// overflows, its carry is not finite.
     #[inline]
     pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Compensated<T> {
         let increment = self.increment(p.value - self.prior, dt, v);

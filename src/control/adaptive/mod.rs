@@ -1,25 +1,22 @@
-//! Robust adaptive torque control, (17)-(26), with any number of regressors.
+//! Robust adaptive torque control with regressors, equations (17) to (26).
 //!
 //! The plant is `y = alpha·u - theta'x - D` (11). The errors are `e = y - y_r`, `z = ∫e` and
 //! `s = e + lambda·z`. The virtual command (23) is `ubar = -k·s + y_r - (z + e')/lambda +
-//! theta_hat'x - delta_hat·T(s/eps)`. The law multiplies ubar by beta_hat, the estimate of 1/alpha
-//! (19). The estimates follow (24)-(26). The regressors of Nguyen et al. (2018) are velocity and
-//! acceleration; **each effect that the bench identifies is a further regressor**, with its value
-//! from the bench as prior.
+//! theta_hat'x - delta_hat·T(s/eps)`. Equation (19) multiplies ubar by beta_hat, the estimate of
+//! 1/alpha. The estimates follow (24) to (26). The regressors of Nguyen et al. (2018) are velocity
+//! and acceleration. **Each identified effect can be a further regressor**, with its identified
+//! coefficient as prior.
 //!
-//! **Two forms for two kinds of plant.** In sampled time e' creates an algebraic loop:
-//! - The form [as published](Form::AsPublished), for plants with inertia, closes the loop through a
+//! **Two forms for two kinds of plant.** In sampled time, e' in (23) creates an algebraic loop:
+//! - The form [as published](Form::AsPublished) is for plants with inertia. It computes e' as a
 //!   filtered difference.
-//! - The [first-order](Form::FirstOrder) form, for plants that respond within a sample, solves the
-//!   loop.
+//! - The [first-order](Form::FirstOrder) form is for plants that respond within a sample. It solves
+//!   the loop for e'.
 //!
-//! On the plant of the other form, each form diverges (tests `control_adaptive`).
-//!
-//! **Bounds on the estimates.** The law clamps each estimate to its bounds (projection). If the
-//! true value lies within the bounds, the clamp cannot raise the Lyapunov function, and every
-//! invariant holds for any measurement. The paper uses no bounds: [`Adaptive::paper`] has
-//! bounds as wide as the range of the float. The first-order form requires bounds above zero for
-//! beta_hat, and bounds not below zero for delta_hat.
+//! **Bounds on the estimates.** The adaptive law clamps each estimate to its bounds (projection).
+//! If the true value lies within the bounds, the clamp cannot increase the Lyapunov function, and
+//! every invariant holds for any measurement. The first-order form requires positive bounds for
+//! beta_hat, and non-negative bounds for delta_hat.
 
 mod estimator;
 #[cfg(kani)]
@@ -41,7 +38,7 @@ pub use state::{AdaptiveInput, AdaptiveState, AdaptiveTerms};
 
 use crate::Real;
 
-/// Robust adaptive torque control with `N` regressors, (17)-(26).
+/// Robust adaptive torque control with `N` regressors, equations (17) to (26).
 ///
 /// ```
 /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
@@ -69,17 +66,17 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// Longest `dt` \[s\] that a step accepts.
     ///
-    /// This is `longest_dt` of the settings or, in the first-order form, the [largest
-    /// step](AdaptiveSettings::largest_step), whichever is shorter.
+    /// This is `longest_dt` of the settings or, in the first-order form, the smaller of
+    /// `longest_dt` and [`largest_step`](AdaptiveSettings::largest_step).
     pub fn longest_dt(&self) -> T {
         self.longest
     }
 
-    /// Whether the state is valid for this law: its numbers are finite and every estimate is within
-    /// its bounds.
+    /// Whether the state is valid for this law: its numbers are finite, and z, the estimates and
+    /// the command are within their limits.
     ///
-    /// Check a stored state before its first use. A step maps a valid state to a valid state,
-    /// for any input.
+    /// Call this method before the first use of a stored state. A step maps a valid state to a
+    /// valid state, for any input.
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveState};
@@ -105,12 +102,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 impl<T: Real> Adaptive<T, 2> {
-    /// Table 2 of Nguyen et al. (2018), with the paper's initial estimates and no projection.
+    /// Table 2 of Nguyen et al. (2018), with its initial estimates and no projection.
     ///
-    /// The form is as published. The filter of the error's rate, 5 ms, is not in the paper. The
-    /// regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley.
-    /// The estimate beta_hat starts at zero, the singular point of the loop, so the start-up
-    /// overshoots (Figure 9). Bounds and `beta.initial = 0.8/alpha` avoid this overshoot.
+    /// The form is as published. The 5 ms filter of e' is not from the paper. The regressors are
+    /// velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley. beta_hat starts at
+    /// zero, where the loop is singular, so the output overshoots at start-up (Figure 9). To avoid
+    /// this overshoot, set bounds and `beta.initial = 0.8/alpha`.
     ///
     /// ```
     /// use bowden::control::Adaptive;

@@ -8,9 +8,9 @@ crate::data! {
     /// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
     #[derive(Default)]
     pub struct ErrorState<T> {
-        /// Filtered error s = e + lambda·z \[N·m\], (18).
+        /// Filtered error of (18), `s = e + lambda·z` \[N·m\].
         pub s: T,
-        /// Accumulated error z \[N·m·s\], (17).
+        /// Accumulated error z of (17) \[N·m·s\].
         pub z: T,
     }
 }
@@ -19,25 +19,29 @@ crate::data! {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance<T> {
-    /// g = alpha·beta_hat, 1 if beta is known.
+    /// g = alpha·beta_hat; 1 if beta_hat is exact.
     pub g: T,
     /// delta_hat \[N·m\].
     pub delta_hat: T,
     /// `w = (g-1)·(r + (r⁺-r)/(h·lambda)) + (g·theta_hat - theta)'x - D` \[N·m\].
     pub w: T,
-    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the change of the plant's output without a
+    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the decrease of the plant's output at a constant
     /// command.
     pub xi: T,
 }
 
-/// One step of the errors in the closed loop of the first-order form and a static plant.
+/// One step of the errors in the closed loop of the first-order form on a static plant.
 ///
-/// On `y = alpha·u - theta'x - D` with u from the previous sample, the errors satisfy exactly `s⁺ =
-/// s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi` and `z⁺ = z + h·(s -
-/// lambda·z)`. These equations hold for any sequence of steps `h`, as long as no limit and no bound
-/// on z is active. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion. It
-/// bounds `|w|`, which contains the disturbance D. Errors that start inside its box of s and z stay
-/// inside.
+/// On the plant `y = alpha·u - theta'x - D` with u from the previous sample, these equations are
+/// exact:
+///
+/// - `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi`
+/// - `z⁺ = z + h·(s - lambda·z)`
+///
+/// The equations hold for any sequence of steps `h`, as long as the command and z are not at a
+/// limit. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion. From bounds
+/// on `|w|` and `|xi|`, which contain the disturbance D, the theorem gives a box in s and z. Errors
+/// that start inside the box stay inside it.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};
@@ -55,12 +59,12 @@ pub struct LagRecursion<T> {
     pub lambda: T,
     /// epsilon \[N·m\].
     pub epsilon: T,
-    /// The smooth sign function.
+    /// The smoothed sign function.
     pub smooth_sign: SmoothSign,
 }
 
 impl<T: Real> LagRecursion<T> {
-    /// The errors one sample of `dt` \[s\] later.
+    /// The errors after one sample of `dt` \[s\].
     #[inline]
     #[must_use]
     pub fn step(&self, at: ErrorState<T>, dt: T, by: &Disturbance<T>) -> ErrorState<T> {

@@ -1,4 +1,4 @@
-//! Bumpless transfer: from another controller, or to other gains.
+//! Bumpless transfer from another controller or to other gains.
 
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use crate::control::status::Held;
@@ -6,19 +6,19 @@ use crate::control::{law, Fault, Status};
 use crate::signal::{clamp, Compensated, DerivativeState};
 use crate::Real;
 
-/// More halvings than a float has digits: the remaining bracket is below its rounding.
+/// Halvings for `f32` and `f64`: more than the float has digits, so the remaining bracket is below
+/// the rounding error.
 const HALVINGS: (u32, u32) = (26, 56);
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
-    /// A state whose first step on `input` commands `output` \[command unit\].
+    /// A new state whose first step on `input` gives the command `output` \[command unit\].
     ///
-    /// The estimates are the initial ones. The accumulated error is chosen so that the law, with
-    /// its feed-forward, commands `output`. No such error exists if beta_hat is zero, z would leave
-    /// its bounds, the limits exclude `output`, or the sample is bad. The command then jumps, and
-    /// only the slew-rate limit or the lag softens the jump.
+    /// The estimates have their initial values. The accumulated error z is chosen so that the
+    /// adaptive law and the feed-forward together give `output`. No such z exists if beta_hat is
+    /// zero, z would exceed its limit, the command limits exclude `output`, or the sample is bad.
+    /// In these cases, the command jumps, and only the slew-rate limit or the lag smooths the jump.
     ///
-    /// The state is new: it has no fault and no bad samples. For a running state use
-    /// [`Adaptive::resume`].
+    /// The new state has no fault. For a running state, use [`Adaptive::resume`].
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
@@ -45,10 +45,10 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// Continues a running state with other settings without a jump of the command.
+    /// Continues a running state with other settings, without a jump of the command.
     ///
-    /// The estimates are kept, each within its new bounds. The accumulated error is chosen so that
-    /// the next step on `input` gives the applied command, as in [`AdaptiveState::resume_from`].
+    /// The estimates are clamped to their new bounds. The accumulated error is chosen so that the
+    /// next step on `input` gives the applied command, as in [`AdaptiveState::resume_from`].
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
@@ -76,11 +76,12 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.settle(state, input);
     }
 
-    /// Starts so that the next step on `input` commands `output` \[command unit\].
+    /// Restarts a state so that the next step on `input` gives the command `output` \[command
+    /// unit\].
     ///
-    /// Like [`AdaptiveState::resume_from`], but for a running state. An unusable sample counts as a
-    /// bad one. A latched safe command stays latched, and the fault counter is kept, so a restart
-    /// after each bad sample does not prevent the safe command. `input.dt` is ignored.
+    /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
+    /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
+    /// `input.dt` is ignored.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -131,7 +132,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// z for which the virtual command is `wanted`; not finite if the law overflows.
+    /// The z for which the virtual command is `wanted`; not finite if the law overflows.
     pub(super) fn z_that_gives(
         &self,
         wanted: T,

@@ -1,4 +1,4 @@
-//! Settings of the law, and the conditions on them.
+//! Settings of the adaptive law, and the conditions on them.
 
 use super::estimator::{Names, BETA, DELTA, THETA};
 use super::{Adaptive, Estimator, Leakage, SmoothSign};
@@ -8,45 +8,47 @@ use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
 crate::data! {
-    /// Treatment of the error's rate in the law: each form is for one kind of plant.
+    /// Treatment of the error rate e' in (23). Each form is for one kind of plant.
     pub enum Form<T> {
-        /// (23) as published, with a filtered difference of the error.
+        /// Equation (23) as published, with e' as a filtered difference of the error.
         ///
-        /// For a plant with inertia, whose output cannot follow the command at once. On a static
-        /// plant with one sample of delay this form diverges unless `g·(k + 2/(lambda·h)) < 1`: at
-        /// 1 kHz g would have to be 0.004.
+        /// This form is for a plant with inertia, whose output cannot follow the command at once.
+        /// On a static plant with one sample of delay, it diverges unless
+        /// `g·(k + 2/(lambda·h)) < 1` with g = alpha·beta_hat.
         AsPublished {
-            /// Time constant of the filter of the error's rate \[s\]: 2 to 20 ms.
+            /// Time constant of the filter of e' \[s\], not negative; usually 2 to 20 ms.
             time_constant: T,
         },
-        /// The law solved for the error's rate: the command follows through a lag of 1/lambda.
+        /// Equation (23) solved for e': the command follows through a lag of 1/lambda.
         ///
-        /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. For a plant that responds within a sample (a
-        /// stiff drive, a blocked joint) this form is (22) exactly. On a plant with inertia it
-        /// diverges.
+        /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. This form is for a plant that responds within a
+        /// sample (a stiff drive, a blocked joint), where it is equivalent to (22). On a plant with
+        /// inertia, it diverges.
         FirstOrder {
-            /// Longest intended sample time \[s\].
+            /// Longest intended sampling period \[s\], positive.
             step: T,
-            /// Upper bound on the plant's gain alpha \[N·m/command unit\].
+            /// Upper bound on the plant's gain alpha \[N·m/command unit\], positive.
             plant_gain: T,
         },
     }
 
-    /// Response to a regressor that is not finite; a NaN from an encoder need not open the torque loop.
+    /// Response to a regressor that is not finite.
     #[derive(Eq, Default)]
     pub enum OnMissing {
-        /// A bad sample: the command is held.
+        /// The sample is bad, and the command is held.
         #[default]
         Hold,
-        /// The command of this sample omits the regressor's term, all estimates stay unchanged, and the
-        /// torque loop stays closed: [`Status::Degraded`](crate::control::Status::Degraded).
+        /// The command of this sample omits the term of the regressor, and the estimates do not
+        /// change. The torque loop stays closed, with the status
+        /// [`Degraded`](crate::control::Status::Degraded).
         DropRegressor,
     }
 
-    /// Settings of an [`Adaptive`](super::Adaptive) law over `N` regressors, (19)-(26).
+    /// Settings of an [`Adaptive`](super::Adaptive) law with `N` regressors.
     ///
-    /// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
-    /// remove these safeguards. A stored form for simulation states them as `unlimited` does.
+    /// Deserialising fails if `limits`, `longest_dt` or `fallback` is missing, because a lost table
+    /// must not remove these safeguards. For a simulation, write the values of
+    /// [`unlimited`](Self::unlimited) explicitly.
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form};
@@ -58,7 +60,7 @@ crate::data! {
     ///         24.0, 8.0, 0.05,
     ///     )
     /// };
-    /// // 1 ms is too long with this epsilon: the constructor refuses it.
+    /// // 1 ms is too long with this epsilon: the constructor rejects it.
     /// assert!(Adaptive::try_new(settings).is_err());
     /// assert!((settings.largest_step().unwrap() - 635e-6).abs() < 1e-6);
     /// let wider = AdaptiveSettings { epsilon: 0.1, ..settings };
@@ -67,23 +69,23 @@ crate::data! {
     pub struct AdaptiveSettings<T: Real, const N: usize> {
         /// Form as published, or first-order form.
         pub form: Form<T>,
-        /// Control gain k, above zero.
+        /// Control gain k, positive.
         pub gain: T,
-        /// lambda \[1/s\], above zero: weight of the accumulated error, (18).
+        /// lambda \[1/s\], positive: weight of the accumulated error in (18).
         pub lambda: T,
-        /// epsilon \[N·m\], above zero: width of the smooth sign.
+        /// epsilon \[N·m\], positive: width of the smoothed sign function.
         ///
-        /// With one sample of delay, choose at least a fortieth of the largest delta_hat.
-        /// Otherwise the command chatters.
+        /// With one sample of delay, epsilon should be at least 1/40 of the largest delta_hat;
+        /// otherwise the command chatters.
         pub epsilon: T,
-        /// The smooth sign function.
+        /// The smoothed sign function in (23) and (25).
         #[cfg_attr(feature = "serde", serde(default))]
         pub smooth_sign: SmoothSign,
-        /// Estimate of 1/alpha \[command unit/(N·m)\], (24).
+        /// Estimate of 1/alpha in (24) \[command unit/(N·m)\].
         pub beta: Estimator<T>,
-        /// Estimate of the bound on the disturbance \[N·m\], (25).
+        /// Estimate of the bound on the disturbance in (25) \[N·m\].
         pub delta: Estimator<T>,
-        /// Estimates of theta_i \[N·m/unit of the regressor\], (26).
+        /// Estimates of theta_i in (26) \[N·m/unit of the regressor\].
         #[cfg_attr(feature = "serde", serde(with = "crate::list"))]
         pub theta: [Estimator<T>; N],
         /// Largest magnitude of the accumulated error z \[N·m·s\].
@@ -92,7 +94,7 @@ crate::data! {
         /// Whether the estimates are frozen.
         #[cfg_attr(feature = "serde", serde(default))]
         pub frozen: bool,
-        /// Response of each regressor to a value that is not finite.
+        /// For each regressor, the response to a value that is not finite.
         #[cfg_attr(
             feature = "serde",
             serde(with = "crate::list", default = "all_hold::<N>")
@@ -100,7 +102,7 @@ crate::data! {
         pub missing: [OnMissing; N],
         /// Range and slew-rate limit of the command.
         pub limits: Limits<T>,
-        /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+        /// Longest `dt` of a good sample \[s\], positive; for example, five sampling periods.
         ///
         /// The first-order form also rejects a `dt` longer than
         /// [`largest_step`](Self::largest_step).
@@ -155,10 +157,11 @@ crate::checked! {
     ///
     /// # Errors
     /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the field's name (`"theta.gain"`).
-    /// - [`Error::Inadmissible`] if the safe command lies outside the limits.
+    /// - [`Error::Inadmissible`] if the safe command lies outside the limits, or if an estimate
+    ///   with a gain has equal bounds.
     /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
     ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
-    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, with g the plant's gain times `beta.high`.
+    ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, where g is `plant_gain·beta.high`.
     ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
     pub fn try_new(settings: AdaptiveSettings<T, N>) {
         let s = &settings;
@@ -221,10 +224,10 @@ crate::checked! {
 }
 
 impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
-    /// Settings for a machine with fixed estimates, from k, lambda \[1/s\] and epsilon \[N·m\]:
-    /// the base of a struct update.
+    /// Settings for a machine, with fixed estimates.
     ///
-    /// beta_hat is one; delta_hat and theta_hat are zero. `longest_dt` is in \[s\].
+    /// `gain` is k, `lambda` is in \[1/s\], `epsilon` in \[N·m\] and `longest_dt` in \[s\].
+    /// beta_hat is one; delta_hat and theta_hat are zero.
     pub const fn new(
         form: Form<T>,
         gain: T,
@@ -242,8 +245,7 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         }
     }
 
-    /// Settings for a simulation: no limits, any `dt` that the form admits, and the last command
-    /// held indefinitely.
+    /// Settings for a simulation: no command limits, no `longest_dt`, and no safe command.
     pub const fn unlimited(form: Form<T>, gain: T, lambda: T, epsilon: T) -> Self {
         Self {
             form,
@@ -263,13 +265,12 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
         }
     }
 
-    /// Largest sample time \[s\] that the first-order form admits; `None` for the form as
-    /// published.
+    /// Largest `dt` \[s\] that the first-order form admits; `None` for the form as published.
     ///
-    /// `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is the plant's gain times the
-    /// largest beta_hat. Up to this step the map of the error does not decrease in s, and the box
-    /// theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings
-    /// that [`Adaptive::try_new`](super::Adaptive::try_new) refuses, but their gains must be
+    /// The result is `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is
+    /// `plant_gain·beta.high`. Up to this `dt`, the next s is a non-decreasing function of s, and
+    /// the box theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings
+    /// that [`Adaptive::try_new`](super::Adaptive::try_new) rejects, but their gains must be
     /// positive and finite.
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {

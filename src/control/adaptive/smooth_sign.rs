@@ -1,14 +1,14 @@
-//! The smooth sign of the law: `tanh`, as in Nguyen et al. (2018), or a clamped line.
+//! The smoothed sign functions of the adaptive law.
 
 use crate::control::law;
 use crate::Real;
 
 crate::data! {
-    /// The smooth sign `T(x)` of (23) and (25), with `x = s/epsilon`.
+    /// The smoothed sign function `T(x)` in (23) and (25), with `x = s/epsilon`.
     ///
-    /// Both functions are odd and non-decreasing, have a slope of at most one and stay within
-    /// `[-1, 1]`; the theorems need no more. The clamped line costs two comparisons and has a smaller
-    /// residual: the maximum of `x·(1 - T(x))` is 1/4 instead of 0.2785.
+    /// Both functions are odd and non-decreasing, with a slope of at most one and values within
+    /// `[-1, 1]`. The theorems use only these properties. The clamped line requires only two
+    /// comparisons, and its [`residue`](Self::residue) is 1/4 instead of 0.2785.
     ///
     /// ```
     /// use bowden::control::SmoothSign;
@@ -18,15 +18,15 @@ crate::data! {
     /// ```
     #[derive(Eq, Hash, Default)]
     pub enum SmoothSign {
-        /// `tanh(x)`.
+        /// `tanh(x)`, as in Nguyen et al. (2018).
         #[default]
         Tanh,
-        /// `x` within `[-1, 1]`.
+        /// `x`, clamped to `[-1, 1]`.
         Clamp,
     }
 }
 
-/// Largest `x·(1 - tanh x)`: Lambert's W(1/e), at x = 0.639232. The paper's 0.2785.
+/// Largest `x·(1 - tanh x)`: Lambert's W(1/e), at x = 0.639232; 0.2785 in the paper.
 const TANH_RESIDUE: f64 = 0.278_464_542_761_073_8;
 
 impl SmoothSign {
@@ -40,7 +40,7 @@ impl SmoothSign {
         }
     }
 
-    /// Largest `|x|·(1 - |T(x)|)`: the contribution of the smooth sign to the bounds.
+    /// Largest `|x|·(1 - |T(x)|)`: the contribution of the smoothed sign function to the bounds.
     ///
     /// W(1/e) = 0.27846 for `tanh` (Lemma 1 of reference 50 in Nguyen et al., 2018), and 1/4 for
     /// the clamped line.

@@ -1,4 +1,4 @@
-//! Input, output and state of a step.
+//! Input, terms and state of a step of the adaptive law.
 
 use super::Adaptive;
 use crate::control::status::Held;
@@ -22,7 +22,7 @@ pub struct AdaptiveInput<T, const N: usize> {
     pub measured: T,
     /// Regressors x_i \[their own units\]: velocity and acceleration in Nguyen et al. (2018).
     pub regressors: [T; N],
-    /// Feed-forward, added to the law's command \[command unit\].
+    /// Feed-forward, added to the command of the adaptive law \[command unit\].
     pub feed_forward: T,
 }
 
@@ -46,31 +46,31 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
     }
 }
 
-/// Every term of the law in one step, with the estimates that the step used.
+/// All terms of the adaptive law in one step, and the estimates that the step used.
 ///
-/// After a bad sample, or with a dropped regressor ([`Degraded`](crate::control::Status::Degraded)),
-/// `z` and the estimates are the values in the state; the other terms are zero.
+/// After a bad sample or a dropped regressor ([`Degraded`](crate::control::Status::Degraded)), `z`
+/// and the estimates are the values in the state, and the other terms are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptiveTerms<T, const N: usize> {
-    /// e = y - y_r \[N·m\], (13).
+    /// Tracking error `e = y - y_r` \[N·m\].
     pub error: T,
-    /// Accumulated error z before this sample \[N·m·s\], (17).
+    /// Accumulated error z before this sample \[N·m·s\].
     pub z: T,
-    /// s = e + lambda·z \[N·m\], (18).
+    /// Filtered error `s = e + lambda·z` \[N·m\].
     pub s: T,
-    /// Filtered rate of the error \[N·m/s\]; zero in the first-order form.
+    /// Filtered error rate e' \[N·m/s\]; zero in the first-order form.
     pub error_rate: T,
-    /// Smooth sign of s/epsilon.
+    /// Smoothed sign function of s/epsilon.
     pub smooth_sign: T,
-    /// Virtual command ubar \[N·m\], (23).
+    /// Virtual command ubar of (23) \[N·m\].
     pub virtual_command: T,
-    /// The law's own part of the command before limits \[command unit\].
+    /// Command of the adaptive law without feed-forward, before the limits \[command unit\].
     pub law: T,
     /// Feed-forward \[command unit\].
     pub feed_forward: T,
-    /// Command before limits \[command unit\].
+    /// Command with feed-forward, before the limits \[command unit\].
     pub unlimited: T,
     /// Whether a limit has changed the command.
     pub limited: bool,
@@ -87,11 +87,11 @@ pub struct AdaptiveTerms<T, const N: usize> {
 }
 
 crate::checked::stored! {
-    /// State of an [`Adaptive`] law: accumulated error, estimates, last good command.
+    /// State of an [`Adaptive`] law: accumulated error, estimates and last good command.
     pub struct AdaptiveState<T, const N: usize> {
         pub(super) z: Compensated<T>,
         pub(super) error_rate: DerivativeState<T>,
-        /// The law's share of the last command, from which the first-order form continues.
+        /// The last command without feed-forward, from which the first-order form continues.
         pub(super) lag: Compensated<T>,
         pub(super) beta: Compensated<T>,
         pub(super) delta: Compensated<T>,
@@ -99,7 +99,7 @@ crate::checked::stored! {
         pub(super) theta: [Compensated<T>; N],
         pub(super) held: Held<T>,
         /// Time of the bad samples since the last good one \[s\]. The highest float means an
-        /// unknown time: the error's rate then stays unchanged for a sample.
+        /// unknown time: the error rate then stays unchanged for a sample.
         pub(super) gap: T,
         /// The limit of the drive at the last command; outdated if the latch is not set.
         pub(super) drive: Option<End>,
@@ -137,8 +137,8 @@ impl End {
 }
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
-    /// A new state: the initial estimates, no accumulated error, and the permitted command nearest
-    /// to zero.
+    /// A new state with the initial estimates and zero accumulated error. The command is the value
+    /// nearest to zero within the limits.
     pub fn new(law: &Adaptive<T, N>) -> Self {
         let settings = law.settings();
         let command = settings.limits.clamp(T::ZERO);
@@ -155,12 +155,10 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         }
     }
 
-    /// Resets to the start like [`new`](Self::new), but keeps the applied command, the fault
-    /// counter, and a latched safe command.
+    /// Resets the state like [`new`](Self::new), but keeps the applied command, the fault counter
+    /// and a latched safe command.
     ///
-    /// A slew-rate limit and the first-order form continue from the applied command, and a bad
-    /// sample holds it. The next good sample after an acknowledged fault starts from it. For a
-    /// state without a command, assign [`AdaptiveState::new`].
+    /// To discard the applied command as well, assign [`AdaptiveState::new`].
     pub fn reset(&mut self, law: &Adaptive<T, N>) {
         *self = Self {
             held: self.held,
@@ -171,11 +169,10 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Prepares a stored state for a restart after a power-off, when no command is applied.
     ///
-    /// Like [`reset`](Self::reset), but the estimates are kept, and the command becomes the value
+    /// This is a [`reset`](Self::reset) that keeps the estimates and sets the command to the value
     /// nearest to zero within the limits. A latched safe command stays latched, and the fault
-    /// counter is kept. The first good sample starts from this command, as after
-    /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
-    /// with the stored command.
+    /// counter is kept. The first good sample starts from the new command. Without this call, a
+    /// step on a stored state continues from the stored command.
     pub fn restore(&mut self, law: &Adaptive<T, N>) {
         let fresh = Self::new(law);
         *self = Self {
@@ -189,8 +186,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// Only this call ends a latched safe command ([`Safe`](crate::control::Status::Safe)). The next
-    /// good sample continues from the safe command, with unchanged estimates.
+    /// The next good sample continues from the safe command with the same estimates.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }
@@ -198,9 +194,9 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit and the first-order form then
-    /// continue from the applied command. At the next good sample, z moves no further towards this
-    /// limit of the drive, and the estimates do not change, as at a limit of the law itself. See
-    /// [`Applied`].
+    /// continue from the applied command. At the next good sample, z does not move further towards
+    /// the limit of the drive. The estimates do not change if s requires more than this limit
+    /// allows. See [`Applied`].
     pub fn applied(&mut self, applied: Applied<T>) {
         let out = self.held.command;
         self.drive = match applied {
@@ -219,22 +215,22 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         self.held.tell();
     }
 
-    /// Accumulated error z \[N·m·s\], (17).
+    /// Accumulated error z of (17) \[N·m·s\].
     pub fn accumulated_error(&self) -> T {
         self.z.value
     }
 
-    /// beta_hat \[command unit/(N·m)\], (24).
+    /// Estimate beta_hat of (24) \[command unit/(N·m)\].
     pub fn beta_hat(&self) -> T {
         self.beta.value
     }
 
-    /// delta_hat \[N·m\], (25).
+    /// Estimate delta_hat of (25) \[N·m\].
     pub fn delta_hat(&self) -> T {
         self.delta.value
     }
 
-    /// theta_hat_i \[N·m/unit of the regressor\], (26).
+    /// Estimates theta_hat_i of (26) \[N·m/unit of the regressor\].
     pub fn theta_hat(&self) -> [T; N] {
         self.theta.map(|theta| theta.value)
     }
@@ -244,7 +240,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
         self.held.command
     }
 
-    /// The fault counter, see [`Fallback`](crate::control::Fallback).
+    /// The fault counter of the [`Fallback`](crate::control::Fallback).
     pub fn fault_counter(&self) -> u32 {
         self.held.score
     }

@@ -1,5 +1,5 @@
-//! One step of the law, in the order that the theorems assume; its equations are in
-//! [`law`].
+//! One step of the adaptive law, in the order that the theorems assume. [`law`] contains the
+//! equations.
 
 use super::state::End;
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
@@ -15,21 +15,20 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Processes one sample and returns the command \[command unit\]; call this method once per
     /// sample.
     ///
-    /// The order of a step is:
+    /// A step computes, in this order:
     /// 1. `e = y - y_r`, and `s = e + lambda·z` with z from the previous sample;
     /// 2. the command, from the estimates of the previous sample;
     /// 3. `z⁺ = z + dt·e`, and the estimates from (s, ubar, x), each clamped to its bounds.
     ///
-    /// If z were updated before s, the exact recursion of the first-order form and the box theorem
-    /// would not hold.
+    /// The box theorem requires that s uses z of the previous sample.
     ///
     /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
-    /// does not move further towards that limit, and the estimates do not change while s requires
-    /// more than the limit allows. Both therefore unwind at once.
+    /// does not move further towards this limit. The estimates do not change while s requires more
+    /// than the limit allows.
     ///
     /// A bad sample leaves the state unchanged and holds the last good command; see
     /// [`control`](crate::control). A sample is also bad if `dt` is longer than
-    /// [`longest_dt`](Self::longest_dt), or if it is so large that the law overflows
+    /// [`longest_dt`](Self::longest_dt), or if its numbers are so large that the law overflows
     /// ([`Fault::Overflow`]). The command is within the limits **for any state**, including a
     /// stored state and a state of another law.
     #[inline]
@@ -52,9 +51,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.exception(state, &mut sample)
     }
 
-    /// The same step with every term for telemetry: [`terms`](Self::terms) before the step.
+    /// The same step, with all terms for telemetry: the [`terms`](Self::terms) before the step.
     ///
-    /// `limited` refers to the applied command.
+    /// In these terms, `limited` refers to the applied command.
     pub fn step_with_terms(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -74,8 +73,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         })
     }
 
-    /// Every term that a step on a good sample would have, computed from the state before that
-    /// step.
+    /// All terms of a step on a good sample, computed from the state before the step.
     #[must_use]
     pub fn terms(
         &self,
@@ -210,7 +208,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// A sample without its droppable parts; the first fault that was dropped.
+    /// Processes a sample without its droppable parts; returns the first fault that was dropped.
     fn live(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -228,7 +226,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// The first good sample after an acknowledged safe command.
     ///
-    /// The lag continues from the safe command; the form as published starts where it gives
+    /// The lag continues from the safe command. The form as published starts at the z that gives
     /// this command. The estimates are unchanged.
     fn close(
         &self,
@@ -247,9 +245,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         next
     }
 
-    /// Moves a state to where the first good sample after a safe command continues: z, rate, lag,
-    /// gap and command. A call, because its bisection needs
-    /// a stack frame of its own.
+    /// Moves z, error rate, lag, gap and command to where the first good sample after a safe
+    /// command continues. Not inlined, because its bisection needs a stack frame of its own.
     #[inline(never)]
     fn go_back(&self, state: &mut AdaptiveState<T, N>, live: &AdaptiveInput<T, N>) {
         state.held.command = self.settings.limits.clamp(state.held.command);
@@ -264,7 +261,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// Removes the droppable regressors from a sample; returns the first fault.
     ///
-    /// In place: a second sample would be on the stack of the deepest call.
+    /// The method changes the sample itself, because a copy would be on the stack of the deepest
+    /// call.
     fn drop_missing(&self, input: &mut AdaptiveInput<T, N>) -> Result<Option<Fault>, Fault> {
         let mut dropped = None;
         let policies = &self.settings.missing;
@@ -298,7 +296,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             .or_else(|| unless_finite(input.feed_forward, Fault::FeedForward))
     }
 
-    /// The law (18), (19), (23), or its first-order form, and the new values of its two
+    /// Equations (18), (19) and (23), or the first-order form, and the new values of the two
     /// memories.
     #[inline]
     pub(super) fn evaluated(
@@ -342,7 +340,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         }
     }
 
-    /// ubar of (23); the first-order form uses the reference's rate for the error's rate.
+    /// ubar of (23). The first-order form replaces the error rate by the negative rate of the
+    /// reference.
     #[inline]
     pub(super) fn virtual_command(
         &self,
@@ -366,7 +365,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         law::virtual_command(damped, theta_x, terms.delta_hat, terms.smooth_sign)
     }
 
-    /// (24)-(26).
+    /// Equations (24) to (26).
     #[inline]
     pub(super) fn adapted(
         &self,
@@ -393,7 +392,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 pub(super) type Estimates<T, const N: usize> =
     (Compensated<T>, Compensated<T>, [Compensated<T>; N]);
 
-/// The law on one sample, and the new values of its memories.
+/// The terms of one sample, and the new values of the memories.
 pub(super) struct Evaluated<T, const N: usize> {
     pub(super) terms: AdaptiveTerms<T, N>,
     pub(super) error_rate: DerivativeState<T>,
@@ -401,7 +400,7 @@ pub(super) struct Evaluated<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> AdaptiveTerms<T, N> {
-    /// The terms of a state alone: z and the estimates.
+    /// The terms that a state itself provides: z and the estimates.
     pub(super) fn at_rest(state: &AdaptiveState<T, N>) -> Self {
         let zero = T::zero();
         Self {

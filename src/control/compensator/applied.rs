@@ -7,13 +7,12 @@ use crate::Real;
 impl<T: Real, const N: usize> Compensator<T, N> {
     /// Reports the actual input of the transmission, if it differs from the command.
     ///
-    /// Examples are a drive that was off, a limit, and another law that has added to the command.
-    /// Call this method between two steps. The hysteresis then moves from its state before the last
-    /// sample to the reported input, and the next step continues from there.
+    /// Call this method between two steps, for example if the drive was off, a limit was active, or
+    /// another controller has added to the command. The hysteresis then moves from its state before
+    /// the last sample to the reported input, and the next step continues from this state.
     ///
-    /// With [`Applied::AtUpperLimit`] or [`Applied::AtLowerLimit`] the actual input is unknown, so
-    /// the model's input does not rise or does not fall. If the method is called twice after a
-    /// step, the second call applies.
+    /// With [`Applied::AtUpperLimit`], the actual input is unknown, and the last rise of the
+    /// model's input is reversed. [`Applied::AtLowerLimit`] reverses a fall.
     ///
     /// ```
     /// use bowden::control::{Applied, Compensator, CompensatorInput, CompensatorState};

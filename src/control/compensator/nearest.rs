@@ -8,21 +8,21 @@ use crate::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Changed<T, const N: usize> {
-    /// Sigma as identified and as inverted, if it was lowered.
+    /// Sigma of the identified model and of the compensator, if sigma was lowered.
     pub sigma: Option<(T, T)>,
-    /// Rho \[1/input unit\] likewise, if sigma = 1/2 was not sufficient.
+    /// Rho of the identified model and of the compensator \[1/input unit\], if rho was lowered.
     pub rho: Option<(T, T)>,
     left_out: [bool; N],
 }
 
 impl<T: Real, const N: usize> Changed<T, N> {
-    /// Whether nothing was changed, so that the compensator equals that from
+    /// Whether nothing was changed: the compensator then equals the result of
     /// [`Compensator::try_new`].
     pub fn is_nothing(&self) -> bool {
         self.sigma.is_none() && self.rho.is_none() && self.left_out().next().is_none()
     }
 
-    /// The terms without feed-forward, by their index in [`Model::terms`].
+    /// The indices in [`Model::terms`] of the terms that the feed-forward omits.
     pub fn left_out(&self) -> impl Iterator<Item = usize> + '_ {
         let places = self.left_out.iter().enumerate();
         places.filter_map(|(term, &is_left_out)| is_left_out.then_some(term))
@@ -46,10 +46,10 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor) still refers
     /// to the model's indices.
     ///
-    /// With this command, the true model does not produce exactly the desired output. To measure
-    /// the error, run the feed-forward and the true model in series, as `examples/nearest.rs` does.
-    /// A model that is fitted within the bound has a smaller error than one that is changed
-    /// afterwards to meet the bound.
+    /// For this command, the identified model does not produce exactly the desired output. To
+    /// measure the error, run the feed-forward and the identified model in series, as
+    /// `examples/nearest.rs` does. A model that is fitted within the bound has a smaller error than
+    /// a model that is changed afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;
@@ -72,7 +72,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the model has no transmission or its gain is zero;
-    /// [`Error::OutOfRange`] with `"rho"` if no float is small enough for rho.
+    /// [`Error::OutOfRange`] with `"rho"` if the required rho is too small for the float type.
     pub fn try_nearest(model: &Model<T, N>) -> Result<(Self, Changed<T, N>), Error> {
         let identified = *model
             .transmission()

@@ -23,7 +23,7 @@ pub(super) fn next(cell: usize, cells: usize) -> usize {
     }
 }
 
-/// Linear interpolation between the middles of the cells.
+/// Linear interpolation between the centres of the cells.
 #[inline]
 pub(super) fn between<T: Real>(cells: &[T], cell: usize, part: T) -> T {
     let half = T::from_f64(0.5);

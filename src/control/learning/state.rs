@@ -1,9 +1,9 @@
-//! State of [`IterativeLearning`](super::IterativeLearning): two buffers and the present cell.
+//! State of [`IterativeLearning`](super::IterativeLearning) between samples.
 
 use crate::Real;
 
-/// State of [`IterativeLearning`](super::IterativeLearning), held in two buffers (arrays or slices).
-/// [`start`](super::IterativeLearning::start) or [`resume`](super::IterativeLearning::resume) makes it.
+/// State of [`IterativeLearning`](super::IterativeLearning) with two buffers (arrays or slices),
+/// from [`start`](super::IterativeLearning::start) or [`resume`](super::IterativeLearning::resume).
 ///
 /// ```
 /// use bowden::control::IterativeLearning;
@@ -24,7 +24,7 @@ pub struct IterativeLearningState<T, M> {
     pub(super) learned: M,
     /// Learned values of the cells before the filter.
     pub(super) unfiltered: M,
-    /// The present cell; none before the first sample.
+    /// The present cell; `usize::MAX` before the first sample.
     pub(super) cell: usize,
     /// Sum of the errors in this cell, and their number.
     pub(super) sum: T,

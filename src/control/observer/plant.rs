@@ -7,8 +7,8 @@ use crate::{Error, Real};
 crate::checked::stored! {
     /// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
     ///
-    /// For a motor with inertia J and damping c that works through the cable against a stiffness K:
-    /// `wn = √(K/J)`, `zeta = c/(2·√(K·J))`, and alpha is the torque of one command unit. If wn and
+    /// For a motor with inertia J and damping c that acts through the cable on a stiffness K,
+    /// `wn = √(K/J)` and `zeta = c/(2·√(K·J))`. alpha is the torque of one command unit. If wn and
     /// alpha are uncertain, choose low values.
     ///
     /// ```
@@ -35,7 +35,7 @@ crate::checked::stored! {
 crate::checked! {
     NominalPlant<T>;
 
-    /// alpha \[output unit/command unit\], not zero; wn > 0 \[rad/s\]; zeta ≥ 0.
+    /// A plant with alpha \[output unit/command unit\], nonzero; wn > 0 \[rad/s\]; zeta ≥ 0.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"`, `"natural_frequency"` or
@@ -55,9 +55,12 @@ crate::checked! {
 }
 
 impl<T: Real> NominalPlant<T> {
-    /// A plant from the drive's specification: the torque of one command unit at rest, inertia > 0
-    /// \[kg·m²\], viscous damping ≥ 0 \[N·m·s/rad\] and stiffness > 0 \[N·m/rad\]. The stiffness is
-    /// that of cable and load in series.
+    /// A plant from the drive's specification.
+    ///
+    /// - `gain` is the torque of one command unit at rest, nonzero.
+    /// - `inertia` \[kg·m²\] is positive.
+    /// - `damping` \[N·m·s/rad\] is the viscous damping, not negative.
+    /// - `stiffness` \[N·m/rad\] is the stiffness of cable and load in series, positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the
@@ -94,11 +97,11 @@ impl<T: Real> NominalPlant<T> {
         self.damping_ratio
     }
 
-    /// The command for which the nominal plant follows the desired output: `P⁻¹` of the output
-    /// and its rates \[output unit, /s, /s²\].
+    /// The command for which the output of the nominal plant follows the desired motion. The
+    /// position is in \[output unit\]; the velocity and the acceleration are its derivatives.
     ///
-    /// Pass the reference ahead of time, by the latency of a command. The result is not checked: if
-    /// the motion is not finite, neither is the result, and a controller rejects it.
+    /// Pass the reference ahead of time, by the latency of the command. If the motion is not
+    /// finite, the result is not finite either, and a controller rejects it.
     #[inline]
     #[must_use]
     pub fn feed_forward(&self, wanted: &Motion<T>) -> T {

@@ -6,7 +6,8 @@ use crate::Error;
 use crate::Real;
 
 crate::checked::stored! {
-    /// State of a [`DisturbanceObserver`](super::DisturbanceObserver): five lags and the last estimate.
+    /// State of a [`DisturbanceObserver`](super::DisturbanceObserver): the lags and the last
+    /// estimate.
     ///
     /// ```
     /// use bowden::control::ObserverState;
@@ -63,9 +64,9 @@ pub(super) fn lag<T: Real>(state: Compensated<T>, target: T, share: T) -> Compen
 impl<T: Real> ObserverState<T> {
     /// A new state, before the first sample; its estimate is zero.
     ///
-    /// The first good sample counts as a steady state: the estimate is then the applied command
-    /// minus the command that the nominal plant needs at rest. Use a new state after the drive was
-    /// off, because a command that did not reach the motor must not count.
+    /// The observer treats the first good sample as a steady state. The estimate is then the
+    /// applied command minus the command that the nominal plant needs at rest. After the drive was
+    /// off, use a new state, because earlier commands did not reach the motor.
     pub const fn new() -> Self {
         Self {
             lags: None,

@@ -17,7 +17,8 @@ crate::data! {
     pub enum DerivativeSource<T> {
         /// The filtered derivative of `y − c·y_r`, as in PID (14).
         Rate {
-            /// Set-point weight c within 0..=1: 1 means the error, 0 the measurement.
+            /// Set-point weight c, from 0 (derivative of the measurement) to 1 (derivative of the
+            /// error).
             weight: T,
         },
         /// The measured distal velocity, unfiltered, as in PIV (16).
@@ -39,10 +40,9 @@ impl<T: Real> DerivativeSource<T> {
 }
 
 crate::data! {
-    /// Anti-windup: limits the integral while the command is limited.
+    /// Anti-windup: the treatment of the integral while the command is limited.
     ///
-    /// The command is limited by the range or by the slew-rate limit, unless a variant states
-    /// otherwise.
+    /// The limits are the range and the slew-rate limit, unless a variant specifies one of them.
     ///
     /// ```
     /// use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
@@ -65,31 +65,31 @@ crate::data! {
     pub enum AntiWindup<T> {
         /// No anti-windup: the integral winds up.
         None,
-        /// The integral term stays within the range of the command. This range is widened to include
-        /// zero and the value that, with the other terms, fills the range.
+        /// The integral term stays within the range of the command. This range is widened to
+        /// include zero and the value for which the command equals the limit.
         Clamp,
-        /// The part that the limits cut off returns to the integral. Without `k_i` nothing returns.
+        /// The integral is corrected by the part of the command that the limits cut off. With `k_i`
+        /// = 0 there is no correction.
         ///
-        /// At the next sample, `dt/(T_t + dt)` times the part that was cut off enters the integral.
-        /// With the other terms at rest it decays by `T_t/(T_t + dt)` per sample, like `e^(−t/T_t)` for
-        /// a short dt, and never overshoots.
+        /// At the next sample, the integral moves by `dt/(T_t + dt)` times this part towards the
+        /// limit. While the other terms are constant, the part decays by the factor
+        /// `T_t/(T_t + dt)` per sample and never overshoots.
         BackCalculation {
-            /// T_t, above zero \[s\]; `k_p/k_i` is a usual choice.
+            /// T_t \[s\], positive; `k_p/k_i` is a usual choice.
             tracking_time: T,
         },
-        /// A change that would take the command beyond its range is cut to the value that fills the
-        /// range.
+        /// The integral stops at the value for which the command equals the limit of its range.
         ///
-        /// A change away from that limit acts in full, so the integral unwinds. The part that the
-        /// slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`. If the slew-rate limit
-        /// counted as a range, the integral would stop while the command moves.
+        /// A change away from this limit is not restricted, so the integral unwinds. The part that
+        /// the slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`.
         Conditional,
     }
 
     /// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
     ///
-    /// A stored form without `limits`, `longest_dt` or `fallback` is refused: a lost table must not
-    /// remove these safeguards. A stored form for simulation states them as `unlimited` does.
+    /// Deserialising fails if `limits`, `longest_dt` or `fallback` is missing, because a lost table
+    /// must not remove these safeguards. For a simulation, write the values of
+    /// [`unlimited`](Self::unlimited) explicitly.
     ///
     /// ```
     /// use bowden::control::{DerivativeSource, Fallback, Limits, Pid, PidSettings};
@@ -113,49 +113,47 @@ crate::data! {
         pub k_p: T,
         /// Integral gain \[command unit/(output unit·s)\]; finite. It must have the sign of `k_p`.
         ///
-        /// **With 0 there is no integral.** An existing integral (from another law, or from a start
-        /// at a given command) returns to zero with a time constant of 1 s. The command moves to
-        /// the other terms without a jump.
+        /// **With 0, there is no integral action.** An existing integral (from other settings, or
+        /// from a start at a given command) returns to zero with a time constant of 1 s.
         pub k_i: T,
-        /// Gain of the damping; finite. With [`DerivativeSource::Rate`] it must have the sign of
-        /// `k_p` (and of `k_i`).
+        /// Damping gain; finite. With [`DerivativeSource::Rate`], it must have the sign of `k_p`
+        /// (and of `k_i`).
         ///
-        /// The unit is \[command unit·s/output unit\], for PIV \[command unit·s/rad\]. With 0 nothing
-        /// is filtered.
+        /// The unit is \[command unit·s/output unit\]; for PIV, it is \[command unit·s/rad\].
         #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
         pub k_d: T,
         /// The signal that `k_d` multiplies.
         #[cfg_attr(feature = "serde", serde(default = "DerivativeSource::on_measurement"))]
         pub damping: DerivativeSource<T>,
-        /// Time constant of the derivative filter, zero (no filter) or above \[s\].
+        /// Time constant of the derivative filter \[s\], not negative; zero means no filter.
         #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
         pub derivative_time: T,
-        /// Set-point weight b of the proportional term, within 0..=1.
+        /// Set-point weight b of the proportional term, from 0 to 1.
         #[cfg_attr(feature = "serde", serde(default = "T::one"))]
         pub setpoint_weight: T,
         /// Anti-windup method.
         #[cfg_attr(feature = "serde", serde(default = "conditional"))]
         pub anti_windup: AntiWindup<T>,
-        /// Largest magnitude of the integral term, above zero \[command unit\].
+        /// Largest magnitude of the integral term \[command unit\], positive.
         #[cfg_attr(feature = "serde", serde(default = "none"))]
         pub integral_limit: Option<T>,
-        /// The integral is frozen while `|e|` is at most this value, zero or above \[output unit\].
+        /// The integral is frozen while `|e|` is at most this value \[output unit\], not negative.
         ///
-        /// With static friction an integral winds up until the output jumps past the reference, and
-        /// the cycle repeats (hunting). A deadband wider than this jump prevents hunting.
+        /// With static friction, the integral winds up until the output jumps past the reference
+        /// (hunting). A deadband wider than this jump prevents hunting.
         #[cfg_attr(feature = "serde", serde(default = "T::zero"))]
         pub deadband: T,
-        /// Period of an output that wraps, above zero \[output unit\], such as 360°.
+        /// Period of an output that wraps \[output unit\], positive, such as 360°.
         ///
-        /// The error and the changes of the output are then measured along the shorter way round,
-        /// within half a period. A period requires the full set-point weight b = 1, and a c of 0 or 1.
+        /// The error and the changes of the output are then at most half a period, in the shorter
+        /// direction. A period requires b = 1, and a c of 0 or 1.
         #[cfg_attr(feature = "serde", serde(default = "none"))]
         pub period: Option<T>,
         /// Range and slew-rate limit of the command.
         pub limits: Limits<T>,
-        /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+        /// Longest `dt` of a good sample \[s\], positive; for example, five sampling periods.
         ///
-        /// A longer `dt` (a wrapped counter, a starved task) is a bad sample.
+        /// A longer `dt`, for example from a timer that wraps, is a bad sample.
         pub longest_dt: T,
         /// Fallback after repeated bad samples; its safe command must lie within `limits`.
         pub fallback: Fallback<T>,
@@ -172,7 +170,7 @@ fn none<T>() -> Option<T> {
     None
 }
 
-/// A number within 0..=1, or the error with its name.
+/// Checks that a number is from 0 to 1; otherwise returns the error with its name.
 macro_rules! share {
     ($value:expr, $name:expr) => {
         not_below_zero!($value, $name);
@@ -183,10 +181,10 @@ macro_rules! share {
 }
 
 impl<T: Real> PidSettings<T> {
-    /// A plain PI (15) for a machine, with limits and a fallback.
+    /// A PI for a machine, equation (15), with limits and a fallback.
     ///
-    /// It has full set-point weight and conditional anti-windup. A derivative, if `k_d` is set,
-    /// acts on the measurement. `longest_dt` is in \[s\].
+    /// The set-point weight b is 1, and the anti-windup is conditional. If you set `k_d`, the
+    /// derivative acts on the measurement. `longest_dt` is in \[s\].
     pub const fn new(
         k_p: T,
         k_i: T,
@@ -202,7 +200,7 @@ impl<T: Real> PidSettings<T> {
         }
     }
 
-    /// Settings for a simulation: no limits, any `dt`, and the last command held indefinitely.
+    /// Settings for a simulation: no command limits, no `longest_dt`, and no safe command.
     pub const fn unlimited(k_p: T, k_i: T) -> Self {
         Self {
             k_p,
@@ -282,9 +280,9 @@ crate::checked! {
     /// Checks the settings.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
-    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
-    /// [`PidSettings`] state both.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the setting, or
+    /// [`Error::Inadmissible`] with the violated condition. The fields of [`PidSettings`] document
+    /// the ranges and conditions.
     pub fn try_new(settings: PidSettings<T>) {
         if let Err(error) = check(&settings) {
             return Err(error);

@@ -12,7 +12,7 @@ crate::data! {
     /// ```
     #[derive(Default)]
     pub struct PidInput<T> {
-        /// Time since the last call \[s\], also after a bad sample.
+        /// Time since the last call \[s\], even if the sample of that call was bad.
         pub dt: T,
         /// Reference y_r \[output unit\], such as \[N·m\].
         pub reference: T,
@@ -20,7 +20,7 @@ crate::data! {
         pub measured: T,
         /// Measured distal velocity \[rad/s\]; only PIV (16) reads it.
         pub velocity: T,
-        /// Feed-forward, added to the command before the limits \[command unit\]; 0 for none.
+        /// Feed-forward, added to the command before the limits \[command unit\].
         pub feed_forward: T,
     }
 }
@@ -40,7 +40,7 @@ impl<T: Real> PidInput<T> {
 }
 
 crate::data! {
-    /// Every term of the last good sample; they add up to `unlimited`.
+    /// All terms of the last good sample.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState};
@@ -63,9 +63,9 @@ crate::data! {
         pub velocity: T,
         /// The feed-forward of the sample \[command unit\].
         pub feed_forward: T,
-        /// The sum of the terms, before range and slew-rate limit \[command unit\].
+        /// Sum of all terms except `error`, before range and slew-rate limit \[command unit\].
         pub unlimited: T,
-        /// Whether the range or the slew-rate limit changed the command.
+        /// Whether the range or the slew-rate limit has changed the command.
         pub saturated: bool,
     }
 }

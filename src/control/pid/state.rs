@@ -10,10 +10,10 @@ use crate::signal::Compensated;
 use crate::Real;
 
 crate::checked::stored! {
-    /// State of a [`Pid`]: the integral, the filtered rate, the last good sample.
+    /// State of a [`Pid`]: the integral, the filtered derivative and the last good sample.
     ///
-    /// The state is `Copy`, so it can be saved and restored. Any state works with any [`Pid`]. To
-    /// change the gains of a running controller without a jump, see [`Pid::bumpless_transfer`].
+    /// Any state is valid for any [`Pid`]. To change the gains of a running controller without a
+    /// jump, see [`Pid::bumpless_transfer`].
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState};
@@ -90,8 +90,8 @@ impl<T: Real> Last<T> {
 impl<T: Real> PidState<T> {
     /// A new state, before the first sample; its command is zero.
     ///
-    /// A slew-rate limit starts from this zero, so use [`PidState::resume_from`] if another command
-    /// is applied.
+    /// A slew-rate limit starts from this command. If another command is applied, use
+    /// [`PidState::resume_from`].
     pub const fn new() -> Self {
         Self {
             integral: Compensated::new(T::ZERO),
@@ -104,19 +104,16 @@ impl<T: Real> PidState<T> {
 
     /// Restarts with an integral for which the command continues from `output` \[command unit\].
     ///
-    /// At the sample `at`, with its feed-forward, the terms add up to `output`, clamped to the
-    /// limits. Use this method for a start at a command that is already applied, and for a
-    /// transfer from manual control or from another controller. The rate starts at zero. The
-    /// next step at the same sample adds one step of the integral and nothing else. `at.dt` is
-    /// ignored. [`AntiWindup::Clamp`](super::AntiWindup::Clamp) limits this integral.
+    /// At the sample `at`, the terms including the feed-forward add up to `output`, clamped to the
+    /// limits. Use this method after manual control or another controller. The derivative starts at
+    /// zero. The next step at the same sample adds only one step of the integral. `at.dt` is
+    /// ignored.
     ///
-    /// A number that is not finite, or an overflow, leaves the state unchanged except for the count
-    /// of bad samples, and returns a fault. A latched safe command stays latched, and the fault
-    /// counter is kept, so a restart after each bad sample does not prevent the safe command.
+    /// A number that is not finite, or an overflow, counts as a bad sample and returns a fault. A
+    /// latched safe command stays latched, and the fault counter is kept.
     ///
-    /// The integral absorbs the difference between `output` and the other terms at `at`. A law
-    /// without `k_i` returns this difference to zero: see
-    /// [`PidSettings::k_i`](super::PidSettings::k_i).
+    /// The integral is the difference between `output` and the other terms at `at`. With `k_i` = 0,
+    /// the integral then returns to zero; see [`PidSettings::k_i`](super::PidSettings::k_i).
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState, Status};
@@ -145,17 +142,15 @@ impl<T: Real> PidState<T> {
 
     /// Acknowledges the fault: the next good sample closes the loop again.
     ///
-    /// Only this call ends a latched safe command ([`Status::Safe`]). The next good sample then
-    /// starts from the safe command, without a jump, as after [`resume_from`](Self::resume_from).
+    /// The next good sample starts from the safe command without a jump.
     pub fn acknowledge(&mut self) {
         self.held.acknowledge();
     }
 
-    /// Clears the integral, the rate and the samples; keeps the applied command.
+    /// Clears the integral, the derivative and the samples, but keeps the applied command.
     ///
-    /// A slew-rate limit continues from the applied command. A latched safe command stays latched,
-    /// and the fault counter is kept, so a reset at each bad sample does not prevent the safe
-    /// command. For a state without a command, assign [`PidState::new`].
+    /// A latched safe command stays latched, and the fault counter is kept. To discard the applied
+    /// command as well, assign [`PidState::new`].
     pub fn reset(&mut self) {
         *self = Self {
             held: self.held,
@@ -165,11 +160,10 @@ impl<T: Real> PidState<T> {
 
     /// Prepares a stored state for a restart after a power-off, when no command is applied.
     ///
-    /// The integral, the rate and the samples are cleared. The command becomes the value nearest to
-    /// zero within the limits. A latched safe command stays latched, and the fault counter is kept.
-    /// The first good sample starts from this command without a jump, as after
-    /// [`acknowledge`](Self::acknowledge). Without this call a step on a stored state continues
-    /// with the stored command.
+    /// This is a [`reset`](Self::reset) that sets the command to the value nearest to zero within
+    /// the limits. A latched safe command stays latched, and the fault counter is kept. The first
+    /// good sample starts from the new command without a jump. Without this call, a step on a
+    /// stored state continues from the stored command.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState};
@@ -199,12 +193,12 @@ impl<T: Real> PidState<T> {
         self.integral.value
     }
 
-    /// The filtered rate of `y − c·y_r` \[output unit/s\]; zero if it is not used.
+    /// The filtered derivative of `y − c·y_r` \[output unit/s\]; zero if it is not used.
     pub fn rate(&self) -> T {
         self.rate
     }
 
-    /// The fault counter, see [`Fallback`](crate::control::Fallback).
+    /// The fault counter of the [`Fallback`](crate::control::Fallback).
     pub fn fault_counter(&self) -> u32 {
         self.held.score
     }

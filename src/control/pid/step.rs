@@ -1,4 +1,4 @@
-//! One step: the law on a good sample, and the response to a bad sample.
+//! One step of a PID: the law on a good sample, and the response to a bad sample.
 
 use super::state::Last;
 use super::{AntiWindup, DerivativeSource, Pid, PidInput, PidState};
@@ -33,7 +33,7 @@ impl<T: Real> Pid<T> {
 
     /// The rest of [`advance`](Self::advance).
     ///
-    /// Two copies of it: with a test for each of the settings, the usual step is 20 instructions
+    /// It has two copies, because a test for each setting would make the usual step 20 instructions
     /// longer.
     #[inline(always)]
     fn follow<const PLAIN: bool>(
@@ -203,8 +203,8 @@ impl<T: Real> Pid<T> {
     }
 }
 
-/// An integral that rises, or falls, to the value at a limit, or to its earlier value beyond
-/// that.
+/// An integral that rises or falls at most to the value at a limit, or to its earlier value beyond
+/// this limit.
 #[inline]
 pub(super) fn stopped<T: Real>(
     integral: Compensated<T>,

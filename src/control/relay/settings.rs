@@ -34,37 +34,39 @@ crate::data! {
         ///
         /// The command that holds the output at the reference gives equal half-periods.
         pub centre: T,
-        /// d, the distance from the centre to each level \[command unit\]: finite, not zero, and with
-        /// the sign of the plant's gain. Both levels must lie within `limits`.
+        /// d, the distance from the centre to each level \[command unit\]: finite, nonzero, and
+        /// with the sign of the plant's gain. Both levels must lie within `limits`.
         pub amplitude: T,
-        /// Hysteresis eps, zero or above \[output unit\]. It must be at least the peak of the noise,
+        /// Hysteresis eps \[output unit\], not negative. Choose at least the peak of the noise;
         /// otherwise the relay chatters.
         pub hysteresis: T,
-        /// Largest distance of the output from the reference, above `hysteresis` \[output unit\].
+        /// Largest deviation of the output from the reference \[output unit\], greater than
+        /// `hysteresis`.
         ///
-        /// One sample beyond it ends the experiment, so the output must lie within this distance at the
-        /// start.
+        /// The first sample with a larger deviation ends the experiment.
         pub most_deviation: T,
         /// Number of successive cycles in the average, at least two.
         pub cycles: u32,
-        /// Largest deviation of a cycle's period and amplitude from the mean of earlier cycles, as a
-        /// share of this mean. The share must lie between 0 and 1.
+        /// Largest relative deviation of the period and amplitude of a cycle from the mean of
+        /// earlier cycles, between 0 and 1.
         ///
         /// A cycle with a larger deviation restarts the average. A period must have at least
-        /// `2/agreement` samples, because a shorter period cannot be measured to this share.
+        /// `2/agreement` samples, because the period of a faster oscillation cannot be measured to
+        /// this relative accuracy.
         pub agreement: T,
         /// Maximum duration of the experiment, at least `longest_dt` \[s\].
         ///
-        /// The duration is divided into 2³² − 1 ticks. Each sample consumes the ticks of its `dt`,
-        /// rounded up; n samples therefore end the experiment early by at most n/2³² of this duration.
+        /// Rounding may end the experiment early, after n samples by at most n/2³² of this
+        /// duration.
         pub longest_time: T,
-        /// Longest `dt` of a good sample, above zero \[s\]: for example five nominal steps.
+        /// Longest `dt` of a good sample \[s\], positive; for example, five sampling periods.
         pub longest_dt: T,
-        /// Range of the command, without a slew-rate limit, because the relay and k_u assume a step.
+        /// Range of the command. A slew-rate limit is an error, because k_u assumes a step of the
+        /// command.
         pub limits: Limits<T>,
         /// Fallback after a failure: a safe command within `limits`.
         ///
-        /// [`Fallback::hold_indefinitely`] is refused, because it has no safe command.
+        /// [`Fallback::hold_indefinitely`] is an error, because it has no safe command.
         pub fallback: Fallback<T>,
     }
 }
@@ -75,9 +77,9 @@ crate::checked! {
     /// Checks the settings.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the setting's name, or
-    /// [`Error::Inadmissible`] with the condition that two settings violate; the fields of
-    /// [`RelaySettings`] state both.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the setting, or
+    /// [`Error::Inadmissible`] with the violated condition. The fields of [`RelaySettings`]
+    /// document the ranges and conditions.
     pub fn try_new(settings: RelaySettings<T>) {
         let s = &settings;
         must_be_finite!(s.reference, "reference");

@@ -6,10 +6,9 @@ use crate::signal::{clamp, Compensated};
 use crate::Real;
 
 crate::checked::stored! {
-    /// State of a [`Relay`](super::Relay): the present cycle, the average, the remaining time.
+    /// State of a [`Relay`](super::Relay): the present cycle, the average and the remaining time.
     ///
-    /// The state is `Copy`. After a power-off, start with [`RelayState::new`], because the limit cycle
-    /// has stopped.
+    /// After a power-off, start with [`RelayState::new`], because the limit cycle has stopped.
     ///
     /// ```
     /// use bowden::control::RelayState;
@@ -89,7 +88,7 @@ impl<T: Real> Mean<T> {
         }
     }
 
-    /// The mean with one more cycle, or with this cycle alone if it does not agree.
+    /// The mean with one more cycle, or only this cycle if it does not agree.
     pub(super) fn joined_by(&self, cycle: &Self, agreement: T) -> Self {
         let near = |mean: T, x: T| (x - mean).abs() <= agreement * mean;
         let agrees = near(self.period, cycle.period) && near(self.amplitude, cycle.amplitude);
@@ -133,7 +132,7 @@ impl<T: Real> RelayState<T> {
     /// Acknowledges the failure: the next good sample restarts the experiment with its full
     /// duration.
     ///
-    /// The safe command is applied until this call. Without a failure the call has no effect.
+    /// The safe command is applied until this call. Without a failure, the call has no effect.
     pub fn acknowledge(&mut self) {
         if self.is_latched() {
             *self = Self::starting_from(self.held.command);
@@ -145,7 +144,7 @@ impl<T: Real> RelayState<T> {
         self.held.command
     }
 
-    /// The result of an experiment that has succeeded.
+    /// The result, if the experiment has succeeded.
     pub const fn result(&self) -> Option<Ultimate<T>> {
         self.result
     }
@@ -160,13 +159,13 @@ impl<T: Real> RelayState<T> {
         self.cycles
     }
 
-    /// The remaining time in units of `longest_time`/(2³² − 1); every sample of a running
-    /// experiment reduces it.
+    /// The remaining time in units of `longest_time`/(2³² − 1). Every sample of a running
+    /// experiment reduces this time.
     pub const fn remaining(&self) -> u32 {
         self.remaining
     }
 
-    /// The fault counter, see [`Fallback`](crate::control::Fallback).
+    /// The fault counter of the [`Fallback`](crate::control::Fallback).
     pub const fn fault_counter(&self) -> u32 {
         self.held.score
     }

@@ -1,4 +1,4 @@
-//! Result of a relay experiment, and the PI gains from it.
+//! Result of a relay experiment, and PI gains.
 
 use crate::Real;
 
@@ -32,21 +32,21 @@ crate::data! {
     pub enum PiRule {
         /// k_p = k_u/3.2, T_i = 2.2·T_u: the conservative rule, and the default.
         ///
-        /// The describing function may give a k_u that is 28 % too high; the gain margin is then
-        /// still 3.2/1.28 = 2.5. For lags, and lags with delay, the gain margin is above 2.5 and
-        /// the phase margin above 45°. B. Tyreus, W. Luyben, "Tuning PI controllers for
-        /// integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
+        /// For lags, with and without delay, the gain margin is above 2.5 and the phase margin is
+        /// above 45°. This includes the error of the describing function, which may give a k_u that
+        /// is 28 % too high. B. Tyreus, W. Luyben, "Tuning PI controllers for integrator/dead time
+        /// processes", *Ind. Eng. Chem. Res.* 31, 1992.
         #[default]
         TyreusLuyben,
         /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
         ///
-        /// The margins for the same plants are only above 1.5 and 15°.
+        /// For the same plants, the gain margin is only above 1.5 and the phase margin above 15°.
         ///
         /// J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans. ASME* 64, 1942.
         ZieglerNichols,
     }
 
-    /// Gains of a PI for [`PidSettings`](crate::control::PidSettings).
+    /// PI gains for [`PidSettings`](crate::control::PidSettings).
     pub struct PiGains<T> {
         /// Proportional gain \[command unit/output unit\].
         pub k_p: T,
@@ -56,7 +56,7 @@ crate::data! {
 }
 
 impl<T: Real> Ultimate<T> {
-    /// The gains of a PI by a rule.
+    /// The PI gains according to a tuning rule.
     #[must_use]
     pub fn pi(&self, rule: PiRule) -> PiGains<T> {
         let (k_p, t_i) = match rule {
