@@ -5,7 +5,7 @@
 //! y = transmission(u, eta) + Σ gain·regressor          (all terms that are not stages)
 //! y ← y + gain·regressor(y)                            (then each output stage, in order)
 //! ```
-//! Only the transmission reads u; every effect reads the measured signals.
+//! Only the transmission reads u. Every effect reads the measured signals.
 //!
 //! The x of a regressor is the position minus the origin of the term (see [`Term`]).
 //!
@@ -97,8 +97,8 @@ pub struct Sample<'a, T> {
 /// A transmission plus at most `N` effects.
 ///
 /// # Formats (feature `serde`)
-/// In a human-readable format (TOML, JSON), a model has the schema `bowden.model/1`, in which
-/// `bowden identify --model-out model.toml` writes it. Reading and writing use no heap. The names
+/// In a human-readable format (TOML, JSON), a model has the schema `bowden.model/1`, which
+/// `bowden identify --model-out model.toml` also writes. Reading and writing use no heap. The names
 /// of the channels take 2 KB of stack. The source of a term is `input` or one of `channels`, which
 /// have the order of [`Sample::channels`]. The table `about` may contain any keys. Elsewhere, an
 /// unknown key is an error. A model does not store the names of its channels, and writes them as
@@ -250,7 +250,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         kept
     }
 
-    /// Whether the sample is good, so that a step uses it.
+    /// Whether the sample is good. A step ignores a bad sample.
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
         let input_is_read = self.transmission.is_some();
@@ -336,7 +336,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same as [`step`](Self::step), and reports the contribution of each term to the output.
+    /// Like [`step`](Self::step), but also reports the contribution of each term to the output.
     ///
     /// The function calls `share(index, contribution)` once per term, with the output stages last.
     /// It makes no call for an input stage, or on a bad sample. The output minus the sum of these

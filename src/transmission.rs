@@ -12,12 +12,12 @@
 //! Nguyen et al. (2018) this bound is 0.743, but sigma is 98.36. Use such a set only for simulation
 //! and identification: after a reversal, its output falls while its input rises.
 //!
-//! The condition follows from the slope of the equation. Up to n = 4 (proved) and up to n = 10
-//! (measured), the slope of the `f32` step is not larger. For n of about 12 or more, it may be up
-//! to 1.39 times the slope of the equation (see [`hysteresis`](crate::hysteresis)). For such n,
-//! choose sigma below the bound divided by 1.39. [`Transmission::greatest_invertible_sigma`]
-//! returns the bound. [`Transmission::nearest_invertible`] returns a transmission that satisfies
-//! it.
+//! The condition follows from the slope of the equation. The slope of the `f32` step does not
+//! exceed it up to n = 4 (proved) and up to n = 10 (measured). For n of about 12 or more, the step
+//! may have up to 1.39 times the slope of the equation (see [`hysteresis`](crate::hysteresis)). For
+//! such n, choose sigma below the bound divided by 1.39.
+//! [`Transmission::greatest_invertible_sigma`] returns the bound.
+//! [`Transmission::nearest_invertible`] returns a transmission that satisfies it.
 //!
 //! # Noise in front of the hysteresis
 //! Noise on the input causes false reversals. With the first set, noise of 0.05 N·m rms on `tau_i`
@@ -210,7 +210,9 @@ impl<T: Real> Transmission<T> {
             .filter(|sigma| *sigma >= T::from_f64(0.5))
     }
 
-    /// The nearest transmission with an inverse, which is this transmission if it has an inverse.
+    /// The nearest transmission with an inverse.
+    ///
+    /// If this transmission has an inverse, the result is this transmission.
     ///
     /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
     /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
@@ -275,7 +277,7 @@ impl<T: Real> Transmission<T> {
         !self.is_aided() && (against.is_nan() || against > self.gain.abs())
     }
 
-    /// The inverse: the input for a given output.
+    /// The inverse, which computes the input for a given output.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero, or if the output does not rise (with a negative

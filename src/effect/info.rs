@@ -25,8 +25,8 @@ pub struct Dimension {
     pub time: i8,
     /// Exponent of the unit of the output.
     pub output: i8,
-    /// Exponent of the unit of the transmission's input. Only the shape parameter of `degradation`
-    /// uses this exponent, because the effect reads the input for any channel.
+    /// Exponent of the unit of the transmission's input. It is nonzero only for the shape parameter
+    /// of `degradation`.
     pub input: i8,
 }
 
@@ -55,7 +55,7 @@ impl Dimension {
     }
 }
 
-/// How a regressor responds to a change of sign.
+/// How a regressor responds to a change of the sign of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Parity {
@@ -67,7 +67,7 @@ pub enum Parity {
     Neither,
 }
 
-/// Symmetries of a regressor, which distinguish effects.
+/// Symmetries of a regressor.
 ///
 /// ```
 /// use bowden::effect::{AsymmetryViscous, Effect, Parity};
@@ -195,7 +195,7 @@ impl Stage {
 pub(super) const COUNT: Error =
     Error::Inadmissible("there must be one value for each shape of the effect");
 
-/// One effect as a type of its own, with its properties and its regressor.
+/// A type that represents one effect.
 ///
 /// A [`FixedModel`](crate::model::FixedModel) uses this trait. Only the effects of this crate
 /// implement it.

@@ -77,7 +77,7 @@ impl<T: Real> Inputs<T> {
 crate::checked::stored! {
     /// The internal state of one effect, empty before the first sample.
     ///
-    /// Use a state with one effect only, because the meaning of its numbers depends on the effect.
+    /// Use a state with only one effect, because the meaning of its numbers depends on the effect.
     #[derive(Default)]
     pub struct EffectState<T> {
         pub(super) memory: Option<[T; 4]>,

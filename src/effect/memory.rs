@@ -168,8 +168,8 @@ effect! {
     /// increments count even in `f32`.
     ///
     /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems",
-    /// *Journal of the Engineering Mechanics Division* 107(6), 1981. There, the change is linear in
-    /// the work. Here, the exponential function bounds the change.
+    /// *Journal of the Engineering Mechanics Division* 107(6), 1981. In that model, the change is
+    /// linear in the work. In this effect, an exponential function bounds the change.
     ///
     /// ```
     /// use bowden::{effect::Degradation, Error};
@@ -197,9 +197,9 @@ effect! {
 effect! {
     /// Creep: x through a first-order low-pass filter.
     ///
-    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. The state starts at the first x. Several
-    /// elements with time constants a decade apart approximate the logarithmic creep of polymers
-    /// and piezo stacks.
+    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. The initial state is the first x.
+    /// Several elements with time constants a decade apart approximate the logarithmic creep of
+    /// polymers and piezo stacks.
     ///
     /// Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
     /// creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
@@ -237,9 +237,9 @@ const PER_POSITION: Dimension = Dimension {
 effect! {
     /// Hardening hysteresis: its slope increases with its state.
     ///
-    /// Formula: `w(x; g, beta)`. The state w follows `dw/dx = 1 + g·|w|` while it moves away from
-    /// zero, and `dw/dx = 1 + (g + 2·beta)·|w|` while it returns. At the first sample, w = 0. The
-    /// unit of w is that of x, so the gain is the initial stiffness.
+    /// Formula: `w(x; g, beta)`. While the state w moves away from zero, `dw/dx = 1 + g·|w|`. While
+    /// w returns, `dw/dx = 1 + (g + 2·beta)·|w|`. At the first sample, w = 0. The unit of w is that
+    /// of x, so the gain is the initial stiffness.
     ///
     /// In the Bouc-Wen form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n`, this effect has n = 1,
     /// `z = A·w`, `b = beta` and `b + c = −g`. A [`BoucWen`](crate::hysteresis::BoucWen) has
@@ -247,12 +247,12 @@ effect! {
     ///
     /// # Bounds
     /// - For `b + c > 0` (a `BoucWen`), `|z| ≤ (A/(b + c))^(1/n)` for any motion.
-    /// - For `b + c < 0`, no bound holds for every stroke, but the stroke bounds w. If x stays
-    ///   within a range of length R, `|w| ≤ (exp(g·R) − 1)/g` for any distance travelled. Proof:
-    ///   the curve `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state
-    ///   rises with the same slope and falls with the steeper slope `1 + (g + 2·beta)·w`. Therefore
-    ///   w never exceeds U. The same holds for negative w. The proof requires `beta > 0`: with
-    ///   `beta < 0`, small reversals would increase w without limit.
+    /// - For `b + c < 0`, only a limited stroke bounds w. If x stays within a range of length R,
+    ///   `|w| ≤ (exp(g·R) − 1)/g` for any distance travelled. Proof: the curve
+    ///   `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the
+    ///   same slope and falls with the steeper slope `1 + (g + 2·beta)·w`. Therefore w never
+    ///   exceeds U. The same holds for negative w. The proof requires `beta > 0`: with `beta < 0`,
+    ///   small reversals would increase w without limit.
     /// - The area of a loop is never negative, because the return branch lies below the outward
     ///   branch. A cycle therefore generates no energy.
     ///
@@ -263,8 +263,8 @@ effect! {
     /// Engineering Mechanics Division* 102(2), 1976; F. Ikhouane, J. Rodellar, *Systems with
     /// Hysteresis*, 2007, table 2.1 (classes). The benchmark of J. P. Noël, M. Schoukens,
     /// "Hysteretic benchmark with a dynamic nonlinearity", *Workshop on Nonlinear System
-    /// Identification Benchmarks*, 2016, has A = 5e4 N/m, b = 800 1/m and c = −1100 1/m, which
-    /// gives `g = 300` and `beta = 800` in 1/m.
+    /// Identification Benchmarks*, 2016, has A = 5e4 N/m, b = 800 1/m and c = −1100 1/m. The
+    /// corresponding parameters are `g = 300` and `beta = 800` in 1/m.
     ///
     /// ```
     /// use bowden::{effect::Hardening, Error};
@@ -314,11 +314,11 @@ fn grown<T: Real>(a: T, rate: T, p: T) -> T {
 effect! {
     /// First-order lag of the output.
     ///
-    /// Formula: `lowpass(output; tau) − output`. With a gain of 1, the output is fully low-pass
-    /// filtered. The state starts at the first output. The filter uses a zero-order hold, so its
-    /// step response is exact for any dt. Rounding errors stop the state short of its target, by a
-    /// relative error of up to `tau/dt` times half the machine epsilon. In `f32` this error is
-    /// 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
+    /// Formula: `lowpass(output; tau) − output`. With a gain of 1, the result is the filtered
+    /// output. The initial state is the first output. The filter uses a zero-order hold, so its
+    /// step response is exact for any dt. Because of rounding errors, the state stops short of its
+    /// target, with a relative error of up to `tau/dt` times half the machine epsilon. In `f32`
+    /// this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
     ///
     /// This effect is an output stage: it reads the sum of all terms before it.
     ///

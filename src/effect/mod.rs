@@ -206,8 +206,8 @@ effects! {
     spring::CurveVelocity <T>,
 }
 
-/// Any effect of this module, with its shape parameters. Convert it from its type, or look it up by
-/// its name in the [`CATALOGUE`].
+/// Any effect of this module, with its shape parameters. Create it from the type of the effect, or
+/// by its name in the [`CATALOGUE`].
 ///
 /// ```
 /// use bowden::effect::{Coulomb, Effect};
@@ -271,7 +271,7 @@ impl<T: Real> Effect<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no such shape parameter or if the value lies outside its
-    /// range, [`Error::NonFinite`] if the value is not finite.
+    /// range; [`Error::NonFinite`] if the value is not finite.
     pub fn with_shape(&self, index: usize, value: T) -> Result<Self, Error> {
         let info = self.info();
         let mut shapes = [T::ZERO; MOST_SHAPES];
@@ -283,8 +283,8 @@ impl<T: Real> Effect<T> {
         Self::try_from_name(info.name, own)
     }
 
-    /// The contribution of a term with this gain to the output. Except for a delay, it is gain
-    /// times regressor.
+    /// The contribution of a term with this gain to the output. It is gain times regressor, except
+    /// for a delay.
     ///
     /// The gain of a [`Delay`] is a time, and the contribution is the delayed output minus the
     /// output. This contribution is not linear in the gain. The result is finite for finite input.
@@ -338,7 +338,7 @@ impl<T: Real> Effect<T> {
     /// Whether the effect acts on the transmission's input instead of adding to the output.
     ///
     /// The regressor of such an effect has the unit of the input, and the gain is dimensionless. In
-    /// a model without a transmission, the term does nothing.
+    /// a model without a transmission, the term adds nothing.
     pub fn is_input_stage(&self) -> bool {
         self.stage() == Stage::Input
     }

@@ -19,7 +19,7 @@
 //! A reversal is `zeta -> -zeta`. A sample advances the state by an increment of the input, not of
 //! time, so the result does not depend on the sampling rate.
 //!
-//! Two methods integrate along the path. With both, `|eta| <= 1` for any increment.
+//! Two methods integrate along the path. Both keep `|eta| <= 1` for any increment.
 //! - [`BoucWen::advance_split`] splits a long increment, so a jump of any size is accurate. `f64`
 //!   uses this method, for identification.
 //! - [`BoucWen::advance_bounded`] takes any increment in one step, so the computing time is
@@ -59,7 +59,7 @@
 //! - **Unloading.** The path from a to zero is `a·H` with `H = int_0^1 ds/(1 + x·s^n)` and
 //!   `x = c·a^n`. Let `t = p/(a·H)` and `f = 1 + x`. Up to `n·x = 3`, H is a convergent of its
 //!   continued fraction, and `a` becomes `a·(1 - t)/(1 + α·t + β·t² + γ·t³)`. The coefficients
-//!   match the slope and curvature of the path at its start, and its slope at zero: `α = f·H - 1`,
+//!   match the slope and curvature of the path at its start and the slope at zero: `α = f·H - 1`,
 //!   `β = f·H·(α - n·x·H/2)`, `γ = 1/H - 1 - α - β`. For larger `n·x`, `a` decreases as a power: it
 //!   becomes `a·(1 - t)/(1 + k·s)^(1/k)` with `k = n - 1`, `s = α²·t/(α + δ·t/2)` and
 //!   `δ = 1 + f·H²·(n·x - f) - k·α²`. A fraction that agrees to `s²` replaces the power, and H has
@@ -97,8 +97,8 @@
 //! With `sigma = 98.36`, the largest errors are 8.5e-4 (`n = 1`), 3.0e-2 (`n = 1.5`) and 1.5e-1
 //! (`n = 10`). A long jump ends near saturation, where earlier errors have decayed.
 //!
-//! `cargo bench --bench step` prints the errors on the sine, and the second table. The tests in
-//! `tests/hysteresis` check bounds on all errors.
+//! `cargo bench --bench step` prints the errors on the sine, and the second table. Tests of the
+//! accuracy are in `tests/hysteresis`.
 //!
 //! # Slope
 //! In the bounded-time step, eta rises by at most `2·sigma` times the path. This bound is proved up

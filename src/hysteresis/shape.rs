@@ -15,7 +15,8 @@ use core::fmt;
 /// - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 /// - n ≥ 1: sharpness of the knee, larger is sharper.
 ///
-/// With `sigma >= 1/2` the model is dissipative. With `n >= 1` as well, `|eta| <= 1`.
+/// The condition `sigma >= 1/2` makes the model dissipative. Together with `n >= 1`, it ensures
+/// `|eta| <= 1`.
 ///
 /// ```
 /// use bowden::hysteresis::{BoucWenState, BoucWen};
@@ -70,8 +71,8 @@ crate::checked! {
     /// Parameters with `rho > 0` [1/input unit], `sigma >= 1/2` and `n >= 1`.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name. A `sigma` or `n`
-    /// above 1e9 is out of range, because such a value cannot be identified.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the invalid parameter. A
+    /// `sigma` or `n` above 1e9 is out of range, because such a value cannot be identified.
     pub fn try_new(rho: T, sigma: T, n: T) {
         above_zero!(rho, "rho");
         must_be_finite!(sigma, "sigma");
@@ -122,7 +123,8 @@ impl<T: Real> BoucWen<T> {
 
     /// Eta after an increment of the input [input unit], in bounded time.
     ///
-    /// The step evaluates one power and at most two coarse powers. In `f32` it does not call libm.
+    /// The step evaluates one power and at most two coarse approximations of a power. In `f32` it
+    /// does not call libm.
     #[inline]
     #[must_use]
     pub fn advance_bounded(&self, eta: T, input_change: T) -> T {
@@ -228,8 +230,7 @@ impl<T: Real> BoucWen<T> {
         }
     }
 
-    /// Slope of eta over the input [1/input unit], in the direction given by the sign of
-    /// `direction`.
+    /// Slope d(eta)/d(input) [1/input unit] in the direction given by the sign of `direction`.
     ///
     /// The slope lies in `[0, rho·max(1, 2·sigma)]`. It is the right-hand side of (2) and (7)
     /// divided by `x'`.

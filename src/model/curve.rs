@@ -9,7 +9,7 @@ impl<T: Real> Term<T> {
     /// The terms of a piecewise linear [curve](crate::effect::CurvePosition) through the points
     /// `(x, f)`, which is constant beyond its ends.
     ///
-    /// The first term is an offset with the first f. Each other term is the segment between two
+    /// The first term is an offset equal to the first f. Each other term is the segment between two
     /// neighbouring points.
     ///
     /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source. For a curve over

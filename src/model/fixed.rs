@@ -70,7 +70,7 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         Model::full(self.transmission, self.terms.any())
     }
 
-    /// Whether the sample is good, so that a step uses it.
+    /// Whether the sample is good. A step ignores a bad sample.
     #[inline]
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
@@ -97,8 +97,8 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same as [`step`](Self::step), and reports the contribution of each term to the output,
-    /// as [`Model::step_with`] does.
+    /// Like [`step`](Self::step), but also reports the contribution of each term to the output, as
+    /// [`Model::step_with`] does.
     #[inline]
     pub fn step_with(
         &self,

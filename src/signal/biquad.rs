@@ -9,7 +9,7 @@ mod prewarped;
 
 /// Second-order filter: a low-pass or a notch.
 ///
-/// The transfer functions, with `s` in units of `2π·frequency` and the quality factor `q`:
+/// With `s` in units of `2π·frequency` and the quality factor `q`, the transfer functions are:
 ///
 /// ```text
 /// low-pass  1/(s² + s/q + 1)       q = 1/√2: Butterworth; q = 1/2: critically damped
@@ -19,23 +19,25 @@ mod prewarped;
 /// last bit.
 ///
 /// **Design.** The filter uses the bilinear transform, prewarped for the sample time `T`. Its
-/// response at `f` \[Hz\] is the transfer function at `s = i·tan(π·f·T)/tan(π·frequency·T)`, which
-/// is exact at `frequency`. `dt` may vary: each step integrates over its own `dt` with the
-/// trapezoidal rule, with the prewarping for `T`. If `dt` is `(1 + e)·T`, the relative error of the
-/// corner frequency is less than `|e|·(π·frequency·T)²`, to first order in `e`.
+/// response at `f` \[Hz\] is the transfer function at `s = i·tan(π·f·T)/tan(π·frequency·T)`. The
+/// response at `frequency` is therefore exact. `dt` may vary: each step integrates over its own
+/// `dt` with the trapezoidal rule, with the prewarping for `T`. If `dt` is `(1 + e)·T`, the
+/// relative error of the corner frequency is less than `|e|·(π·frequency·T)²`, to first order in
+/// `e`.
 ///
 /// **Form.** The filter is a state-variable filter with trapezoidal integrators (A. Simper,
 /// *Solving the continuous SVF equations using trapezoidal integration*, 2013). Its coefficients
 /// are proportional to `frequency`, and its integrators are compensated sums. A direct form has the
 /// same transfer function, but in `f32` it cannot represent a corner below 1/1000 of the sample
-/// rate (test `a_low_corner_needs_this_form_in_single_precision` in `tests/signal/filters.rs`).
+/// rate (see test `a_low_corner_needs_this_form_in_single_precision` in `tests/signal/filters.rs`).
 ///
 /// **Bounds.** For a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
 /// increases, for any sequence of `dt`. The output of a low-pass that starts at rest is therefore
-/// never further from `c` than at the start. From rest, and with `dt` equal to the sample time, the
-/// largest output is at most `2 + 4·q/π` times the largest sample for a low-pass, and 3 times for a
-/// notch. These factors bound the sum of the magnitudes of the impulse response on a grid of
-/// `frequency` and `q` (`tests/signal/filters.rs`).
+/// never further from `c` than at the start. The following limits apply to a start from rest with
+/// `dt` equal to the sample time. The output of a low-pass is at most `2 + 4·q/π` times the largest
+/// sample, and the output of a notch is at most 3 times the largest sample. The factors bound the
+/// sum of the magnitudes of the impulse response on a grid of `frequency` and `q`
+/// (`tests/signal/filters.rs`).
 ///
 /// ```
 /// use bowden::signal::{Biquad, BiquadState};

@@ -127,8 +127,8 @@ crate::checked! {
 }
 
 impl<T: Real> EdgeVelocity<T> {
-    /// The velocity \[channel unit/s\] after a `position` \[channel unit\] measured `dt` \[s\]
-    /// after the last call.
+    /// The velocity \[channel unit/s\] at a `position` \[channel unit\] measured `dt` \[s\] after
+    /// the last call.
     ///
     /// `dt` is the time since the last call, even if the last sample was bad. If the distance from
     /// the last position overflows, the measurement restarts.

@@ -45,7 +45,7 @@ crate::checked::stored! {
 }
 
 crate::data! {
-    /// Why a sample is implausible.
+    /// The reason why a sample is implausible.
     #[derive(Eq, Hash)]
     #[non_exhaustive]
     pub enum Implausible {
@@ -66,7 +66,7 @@ crate::data! {
 pub struct PlausibleOutput<T> {
     /// The sample if it is plausible, otherwise NaN.
     pub value: T,
-    /// Why the sample is implausible, if it is.
+    /// The reason, if the sample is implausible.
     pub fault: Option<Implausible>,
 }
 
@@ -108,11 +108,11 @@ crate::checked! {
     /// After a reading has repeated for `t` seconds, the check also accepts a spike of up to
     /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`.
     /// [`with_sample_period`](Self::with_sample_period) bounds the spike and this time. Use it for
-    /// a sensor whose readings repeat while the signal is constant, such as an encoder, and for a
-    /// sensor that is not synchronous with the loop.
+    /// a sensor that is not synchronous with the loop, or whose readings repeat while the signal is
+    /// constant, such as an encoder.
     ///
-    /// While the check rejects samples, the permitted difference grows with time. If a signal has
-    /// really jumped, the check accepts it again after the time `distance/rate`, rounded up to the
+    /// While the check rejects samples, the permitted difference grows with time. If the signal has
+    /// in fact jumped, the check accepts it again after the time `distance/rate`, rounded up to the
     /// next sample. The same applies to the new position of an encoder that was reset.
     /// [`Rates`](crate::signal::Rates) downstream of this check then gives a velocity of up to
     /// `rate`. [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) prevents a

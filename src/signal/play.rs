@@ -67,8 +67,8 @@ impl<T: Real> Play<T> {
 
     /// The output [input unit] after one input sample [input unit].
     ///
-    /// An input that is not finite leaves the output unchanged, which is zero before the first good
-    /// sample.
+    /// An input that is not finite leaves the output unchanged. Before the first good sample, the
+    /// output is zero.
     #[inline]
     pub fn step(&self, state: &mut PlayState<T>, input: T) -> T {
         let output = state

@@ -75,8 +75,8 @@ impl<T: Real> Ramp<T> {
     /// The reference \[signal unit\] `dt` \[s\] later, on its way to `wanted` \[signal unit\].
     ///
     /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
-    /// reference unchanged. The reference never passes a constant `wanted`. If `wanted`
-    /// reverses during the ramp, the lag may overshoot it by `rate·time_constant`.
+    /// reference unchanged. The reference never passes a constant `wanted`. If `wanted` reverses
+    /// during the ramp, the lag may overshoot it by up to `rate·time_constant`.
     #[inline]
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {

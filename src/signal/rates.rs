@@ -85,12 +85,12 @@ crate::data! {
     /// Validity of the rates from [`Rates`] or [`EdgeVelocity`](super::EdgeVelocity).
     #[derive(Eq, Hash)]
     pub enum RateStatus {
-        /// A good sample. The rates have settled or, from an [`EdgeVelocity`](super::EdgeVelocity),
-        /// two counts and the time between them are known.
+        /// A good sample, and the rates have settled. From an
+        /// [`EdgeVelocity`](super::EdgeVelocity): two counts and the time between them are known.
         Good,
-        /// A good sample, but the rates started from zero less than five time constants ago, or an
-        /// [`EdgeVelocity`](super::EdgeVelocity) does not yet know two counts and the time between
-        /// them.
+        /// A good sample, but the rates started from zero less than five time constants ago. From
+        /// an [`EdgeVelocity`](super::EdgeVelocity): two counts and the time between them are not
+        /// yet known.
         Settling,
         /// A good sample after an unknown time. [`Rates`] holds the rates.
         Resumed,
@@ -170,8 +170,8 @@ crate::checked! {
     /// delay but increases the noise.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, including if the time
-    /// constant is not a positive finite float.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. The second error includes a
+    /// `cutoff` whose time constant is not a positive finite float.
     pub fn for_cutoff(cutoff: T) {
         above_zero!(cutoff, "cutoff");
         let corner: T = of(CORNER);

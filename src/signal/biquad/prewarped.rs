@@ -1,4 +1,4 @@
-//! The tangent of the prewarping, also at compile time.
+//! The tangent for the prewarping, as a `const fn`.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
