@@ -35,7 +35,7 @@ crate::data! {
     pub enum Source {
         /// The transmission's input.
         Input,
-        /// One of the sample's channels. The first has index 0.
+        /// One of the sample's channels. The first channel has index 0.
         Channel(u8),
     }
 }

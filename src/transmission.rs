@@ -222,9 +222,9 @@ impl<T: Real> Transmission<T> {
     /// twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
     /// `tests/transmission.rs`).
     ///
-    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. There,
-    /// the rate of the computed input is unbounded, but its change in one sample is bounded. A
-    /// slew-rate limit may therefore follow the inverse.
+    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. At such a
+    /// reversal, the rate of the computed input is unbounded, but the change in one sample is
+    /// bounded. A slew-rate limit may therefore follow the inverse.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no float

@@ -116,7 +116,7 @@ pub enum Quantity {
 pub enum Range {
     /// Any finite number.
     Finite,
-    /// Any positive finite number. A fit should vary its logarithm.
+    /// Any positive finite number. A fit should vary the logarithm of the parameter.
     Positive,
 }
 
@@ -156,7 +156,8 @@ pub struct Info {
     pub dimension: Dimension,
     /// Symmetries of the regressor.
     pub parity: Symmetry,
-    /// The quantities that the effect reads. If one of them is not finite, the regressor returns 0.
+    /// The quantities that the effect reads. If one of these quantities is not finite, the
+    /// regressor is 0.
     pub reads: &'static [Quantity],
     /// Whether the effect depends on earlier samples.
     pub memory: bool,

@@ -114,7 +114,8 @@ effect! {
 }
 
 effect! {
-    /// Presliding friction that bends gradually: the Dahl model with length `r` and unit height.
+    /// Presliding friction with a gradual transition to slip: the Dahl model with length `r` and
+    /// unit height.
     ///
     /// Formula: `dahl(x; r)`, the state z of Dahl's equation with exponent 1,
     /// `dz/dx = (1 − z·sgn dx)/r`. The state starts at `z = 0`. If x is monotonic between two

@@ -1,10 +1,10 @@
 //! Effects of a cable transmission other than its hysteresis.
 //!
-//! Each effect is a gain times a *regressor*, which is a function of the motion, the load and the
-//! hysteresis state. A fit identifies the gain. Each effect has its own type, and [`Effect`] can
-//! hold any effect. [`Info`] gives the formula, unit, symmetries and shape parameters of an effect.
-//! The symmetries show which effects can explain a residual, and which experiment separates two
-//! effects.
+//! Each effect defines a *regressor*, a function of the motion, the load and the hysteresis state.
+//! A term of a model is a gain times a regressor, and a fit identifies the gain. Each effect has
+//! its own type, and [`Effect`] can hold any effect. [`Info`] gives the formula, unit, symmetries
+//! and shape parameters of an effect. The symmetries show which effects can explain a residual, and
+//! which experiment separates two effects.
 //!
 //! For finite inputs a regressor is finite, because it saturates if the arithmetic overflows. If a
 //! number that the effect reads is not finite, or a `dt` that it reads is negative, the regressor

@@ -178,9 +178,9 @@ impl<T: Real> BoucWen<T> {
     /// The state after an increment of the input [input unit], with the exact derivatives of this
     /// discrete step.
     ///
-    /// This function does not use the closed forms for `n = 1` and `n = 2`. For these n, its eta
-    /// differs from that of [`advance`](Self::advance) by the error of the general step. In
-    /// saturation, all derivatives are zero.
+    /// This function does not use the closed forms for `n = 1` and `n = 2`. For these n, the
+    /// resulting eta differs from that of [`advance`](Self::advance) by the error of the general
+    /// step. In saturation, all derivatives are zero.
     #[inline]
     #[must_use]
     pub fn advance_with_sensitivity(
@@ -232,8 +232,8 @@ impl<T: Real> BoucWen<T> {
 
     /// Slope d(eta)/d(input) [1/input unit] in the direction given by the sign of `direction`.
     ///
-    /// The slope lies in `[0, rho·max(1, 2·sigma)]`. It is the right-hand side of (2) and (7)
-    /// divided by `x'`.
+    /// The slope lies in `[0, rho·max(1, 2·sigma)]`. This slope is the right-hand side of (2) and
+    /// (7) divided by `x'`.
     #[inline]
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {

@@ -99,7 +99,8 @@ crate::checked::stored_as! {
 crate::data! {
     /// The state eta, and its derivatives with respect to the parameters and the initial state.
     ///
-    /// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances it.
+    /// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances
+    /// this state.
     #[derive(Default)]
     pub struct Sensitivity<T> {
         /// The state, in [-1, 1].

@@ -20,8 +20,8 @@ crate::checked::stored! {
     ///   `f·dt/(1 − f·dt)` if `f·dt < 1` (at least one sample per count). At any speed, it is at
     ///   most `dt/tau·min(1, 1/(f·dt))`.
     /// * **Delay**: at a count, slow changes have a delay of `T·(1/2 + q/(1 − q))` with
-    ///   `q = e^(−T/tau)`. This is about `T/2` at low speed and tau at high speed. Until the next
-    ///   count the velocity is held, which adds `T/2` on average.
+    ///   `q = e^(−T/tau)`. This delay is about `T/2` at low speed and tau at high speed. Until the
+    ///   next count the velocity is held, which adds `T/2` on average.
     /// * **Stop**: without a count, the bound on the velocity falls with time. After `longest_gap`
     ///   without a count, the velocity is zero and the status is [`RateStatus::Stopped`]. A speed
     ///   below `count/longest_gap` therefore counts as a stop.

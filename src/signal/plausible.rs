@@ -129,10 +129,10 @@ crate::checked! {
     /// The same check for a sensor with a sampling period of at most `sample_period` \[s\].
     ///
     /// Include the jitter of the sensor and of its bus. The check then assumes that every reading
-    /// is at most this old, and the next reading may differ by `rate·(sample_period + dt)`. This is
-    /// also the largest spike that the check accepts. It depends neither on the number of
-    /// repetitions nor on the phase between sensor and loop. Without a rate limit, this setting has
-    /// no effect.
+    /// is at most this old, and the next reading may differ by `rate·(sample_period + dt)`. The
+    /// same difference is the largest spike that the check accepts. This difference depends neither
+    /// on the number of repetitions nor on the phase between sensor and loop. Without a rate limit,
+    /// this setting has no effect.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};

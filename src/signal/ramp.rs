@@ -9,7 +9,8 @@ crate::checked::stored! {
     ///
     /// The ramp is `r⁺ = r + clamp(wanted − r, ±rate·dt)`, and the reference is
     /// `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the reference can require more than the drive
-    /// can deliver. Anti-windup then determines the response, not the gains. A ramp avoids this.
+    /// can deliver. Anti-windup then determines the response, not the gains. A ramp with a suitable
+    /// rate avoids saturation.
     ///
     /// ```
     /// use bowden::signal::{Ramp, RampState};

@@ -35,8 +35,8 @@ crate::checked::stored! {
     /// tau to within `h²/(12·tau)`.
     ///
     /// White noise with a standard deviation of `s_x` on the position gives noise of about
-    /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both are smaller if tau is not
-    /// much larger than h.
+    /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both values are smaller if tau
+    /// is not much larger than h.
     ///
     /// * **First sample**: the rates start at zero. On an axis that moves at the velocity V, the
     ///   computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a pulse of
@@ -221,9 +221,9 @@ impl<T: Real> Rates<T> {
 
     /// The motion at a `position` \[channel unit\] measured `dt` \[s\] after the last call.
     ///
-    /// `dt` is the time since the last call, even if the last sample was bad. It must be positive,
-    /// including at the first call. A bad sample leaves the state unchanged except for the elapsed
-    /// time.
+    /// `dt` is the time since the last call, even if the last sample was bad. `dt` must be
+    /// positive, including at the first call. A bad sample leaves the state unchanged except for
+    /// the elapsed time.
     #[inline]
     pub fn step(&self, state: &mut RatesState<T>, position: T, dt: T) -> RatesOutput<T> {
         let status = match self.advance(state, position, dt) {

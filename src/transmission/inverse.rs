@@ -5,9 +5,9 @@ use crate::Real;
 
 /// The inverse of a transmission, which computes the input for a desired output.
 ///
-/// [`Transmission::inverse`](super::Transmission::inverse) creates it, and checks that the input is
-/// unique. The state has the type of the transmission's state. After [`step`](Self::step), it
-/// equals the state of the forward model after the same input.
+/// [`Transmission::inverse`](super::Transmission::inverse) creates an `Inverse`, and checks that
+/// the input is unique. The state has the type of the transmission's state. After
+/// [`step`](Self::step), the state equals that of the forward model after the same input.
 ///
 /// ```
 /// use bowden::hysteresis::{BoucWenState, BoucWen};
