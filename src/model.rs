@@ -45,10 +45,9 @@ crate::data! {
 /// # Origin
 /// The effect reads the position minus the origin, and the unchanged velocity and acceleration. The
 /// zero of a sensor is arbitrary, but an effect such as `x·|x|` or `x·tanh(v/v_e)` depends on the
-/// distance from a specific position. With a different zero the effect is a different function,
-/// which no gain corrects. A gain is therefore valid only with its origin. Shape parameters that
-/// are positions, such as `x_h`, are relative to the origin. The origin does not shift the
-/// transmission's input, which `degradation` reads in addition to its source.
+/// distance from a specific position. A gain is therefore valid only with its origin. Shape
+/// parameters that are positions, such as `x_h`, are relative to the origin. The origin does not
+/// shift the transmission's input, which `degradation` reads in addition to its source.
 ///
 /// ```
 /// use bowden::effect::{Motion, StiffnessProgressive};

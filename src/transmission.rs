@@ -23,9 +23,9 @@
 //! Noise on the input causes false reversals. With the first set, noise of 0.05 N·m rms on `tau_i`
 //! changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of the model,
 //! with a half-width of four standard deviations of the noise, reduces this error to 0.74 N·m rms.
-//! For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms. These figures are from the
-//! test `noise_destroys_the_state_and_a_play_guards_it` in `tests/transmission.rs`. Use a play only
-//! on a measured input, because it delays each reversal by its width.
+//! For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms (test
+//! `noise_destroys_the_state_and_a_play_guards_it`). Use a play only on a measured input, because
+//! it delays each reversal by its width.
 
 use crate::error::must_be_finite;
 use crate::hysteresis::{BoucWen, BoucWenState};
@@ -217,10 +217,7 @@ impl<T: Real> Transmission<T> {
     /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
     /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
     /// `|gain|/|kappa_eta|`. The knee of the loop then becomes rounder, but the loop keeps its
-    /// height. A lower kappa_eta instead of a lower rho would change the output at every saturated
-    /// sample. On loops with a width of ten times 1/rho or more, the rms error would be more than
-    /// twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
-    /// `tests/transmission.rs`).
+    /// height.
     ///
     /// At the bound, the slope of the output is zero at the reversal of a saturated loop. At such a
     /// reversal, the rate of the computed input is unbounded, but the change in one sample is

@@ -68,7 +68,7 @@ const MOST_HALVINGS: u32 = 80;
 /// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
 /// slope that changes along the path.
 ///
-/// If no proof is found, the cause may be the limit on the number of regions, not the range.
+/// If no proof is found, the cause may be the limit on the number of regions.
 ///
 /// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 /// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.

@@ -12,9 +12,8 @@ use bowden::Error;
 /// ```
 /// With `f = 1` and `c/K = 0` the plant is the [`NominalPlant`](bowden::control::NominalPlant) with
 /// a delay. A damping c of the joint, parallel to its stiffness K, provides phase lead. A c/K of
-/// 3 ms compensates for 3 ms of latency. A rig may be stable only because of this damping. Along a
-/// hysteresis loop, the output of the cable changes by f times the change of its input, so the
-/// motor drives a stiffness of K/f.
+/// 3 ms compensates for 3 ms of latency. Along a hysteresis loop, the output of the cable changes
+/// by f times the change of its input, so the motor drives a stiffness of K/f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -45,17 +45,15 @@ effect! {
     /// Drag proportional to a power of the speed.
     ///
     /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless.
-    /// The gain is the output at 1 channel unit/s, in the output unit. A change of the channel unit
-    /// changes the gain but not the exponent.
+    /// The gain is the output at 1 channel unit/s, in the output unit. Another channel unit changes
+    /// the gain but not the exponent.
     ///
     /// For `0 < a < 1` the regressor is continuous, has an infinite slope at v = 0, and then
     /// flattens. It lies between Coulomb friction (the limit a → 0) and [`Viscous`](super::Viscous)
     /// (a = 1).
     ///
     /// An exponent below 1 describes shear-thinning fluids: greases, oils with additives and, past
-    /// yield, magnetorheological fluids. An exponent above 1 describes shear-thickening fluids. The
-    /// cases a = 2 and a = 3 have the formulas of [`DragQuadratic`](super::DragQuadratic) and
-    /// [`DragCubic`](super::DragCubic).
+    /// yield, magnetorheological fluids. An exponent above 1 describes shear-thickening fluids.
     ///
     /// Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
     /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,

@@ -165,12 +165,10 @@ effect! {
     /// Formula: `eta·(1 − exp(−W/w_c))` with `W = ∫|eta|·|dx|`, where x is the transmission's
     /// input, whatever the source of the term. The integral uses the trapezoidal rule and starts at
     /// the first sample. For W ≪ w_c the regressor is approximately `eta·W/w_c`. Its limit is
-    /// `eta`, so the loop stays bounded after running-in. W is a compensated sum, so small
-    /// increments count even in `f32`.
+    /// `eta`, so the loop stays bounded after running-in.
     ///
     /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems",
-    /// *Journal of the Engineering Mechanics Division* 107(6), 1981. In that model, the change is
-    /// linear in the work. In this effect, an exponential function bounds the change.
+    /// *Journal of the Engineering Mechanics Division* 107(6), 1981 (linear in the work).
     ///
     /// ```
     /// use bowden::{effect::Degradation, Error};
@@ -254,11 +252,9 @@ effect! {
     ///   same slope and falls with the steeper slope `1 + (g + 2·beta)·w`. Therefore w never
     ///   exceeds U. The same holds for negative w. The proof requires `beta > 0`: with `beta < 0`,
     ///   small reversals would increase w without limit.
-    /// - The area of a loop is never negative, because the return branch lies below the outward
-    ///   branch. A cycle therefore generates no energy.
+    /// - A cycle generates no energy, because the return branch lies below the outward branch.
     ///
-    /// If x is monotonic between two samples, the step is exact for any dx. If the exponential
-    /// function overflows, w saturates at the largest float.
+    /// If x is monotonic between two samples, the step is exact for any dx.
     ///
     /// Source: Y. K. Wen, "Method for random vibration of hysteretic systems", *Journal of the
     /// Engineering Mechanics Division* 102(2), 1976; F. Ikhouane, J. Rodellar, *Systems with

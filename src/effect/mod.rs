@@ -6,9 +6,7 @@
 //! and shape parameters of an effect. The symmetries show which effects can explain a residual, and
 //! which experiment separates two effects.
 //!
-//! For finite inputs a regressor is finite, because it saturates if the arithmetic overflows. If a
-//! number that the effect reads is not finite, or a `dt` that it reads is negative, the regressor
-//! is 0 and the memory does not change.
+//! A regressor saturates if the arithmetic overflows.
 
 mod bounds;
 mod declare;
@@ -130,7 +128,7 @@ macro_rules! effects {
 
             /// The regressor at one sample, without the gain.
             ///
-            /// The result is finite for finite input. If a number that the effect reads is not
+            /// The result is finite for finite inputs. If a number that the effect reads is not
             /// finite, or a `dt` that it reads is negative, the result is 0 and `state` is
             /// unchanged.
             #[inline]
@@ -287,9 +285,8 @@ impl<T: Real> Effect<T> {
     /// for a delay.
     ///
     /// The gain of a [`Delay`] is a time, and the contribution is the delayed output minus the
-    /// output. This contribution is not linear in the gain. The result is finite for finite input.
-    /// If a number that the effect reads is not finite, or a `dt` that it reads is negative, the
-    /// result is 0 and `state` is unchanged.
+    /// output. This contribution is not linear in the gain. Numbers that overflow or are not finite
+    /// have the same consequences as for [`regressor`](Self::regressor).
     ///
     /// ```
     /// use bowden::effect::{Delay, Effect, EffectState, Inputs};

@@ -202,7 +202,7 @@ effect! {
     /// regressor of the [adaptive law](crate::control::Adaptive), which then estimates the curve.
     ///
     /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter III (piecewise linear
-    /// interpolation). A segment is the sum of the hat functions of all points to its right.
+    /// interpolation).
     ///
     /// ```
     /// use bowden::{effect::CurvePosition, Error};

@@ -1,10 +1,8 @@
 //! The state equation of the hysteresis: equations (2) and (7) of Nguyen et al. (2018).
 //!
 //! The names follow the paper. The input `x` is a displacement in (2) and a torque in (7).
-//! [`eta_rate`] is the equation as published. With `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1`
-//! and the path p, `dp = rho·|dx|`, the equation becomes `dzeta/dp = f(zeta)`, which does not
-//! contain time. [`f`] is the right-hand side of this equation, so `eta' = d·rho·|x'|·f(d·eta)`
-//! (tested in `tests/hysteresis/law.rs`).
+//! [`eta_rate`] is the equation as published. [`f`] is its form along the path (see
+//! [`hysteresis`](crate::hysteresis)), so `eta' = d·rho·|x'|·f(d·eta)` with `d = sgn(x')`.
 
 use super::number::Number;
 use crate::Real;

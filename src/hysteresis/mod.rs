@@ -37,14 +37,12 @@
 //! additional term `27/256·r⁴` with `r = p·f/(1 - zeta)`. Since `1 + 27/256·r⁴ >= r` for every `r`,
 //! `0 <= dzeta <= 1 - zeta` for **any** step. During unloading, the step ends at `zeta = 0`. The
 //! path to this point is the root of a quadratic equation, and the rest of the path is loading.
-//! Comparisons also enforce both bounds, so they hold with rounding errors and with an inaccurate
-//! power function.
+//! Comparisons enforce both bounds in spite of rounding errors.
 //!
 //! If `n·(1 - zeta) <= 0.03`, the rest of the path follows a logistic equation with a closed-form
 //! solution. The local error determines where a long increment is split, so the cost of a jump
 //! grows only with `ln(sigma)`. A jump from one saturation to the other evaluates at most 30 powers
-//! for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`). A small increment needs
-//! one power.
+//! for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`).
 //!
 //! # The bounded-time step
 //! For any increment, the step evaluates one power `a^(n-1)` and at most two coarse powers. In
@@ -95,7 +93,7 @@
 //! | 10 | 3.0e-7 (7.1e-9) | 2.6e-3 (6.4e-5) | 1.4e-1 (9.1e-3) |
 //!
 //! With `sigma = 98.36`, the largest errors are 8.5e-4 (`n = 1`), 3.0e-2 (`n = 1.5`) and 1.5e-1
-//! (`n = 10`). A long jump ends near saturation, where earlier errors have decayed.
+//! (`n = 10`).
 //!
 //! `cargo bench --bench step` prints the errors on the sine, and the second table. Tests of the
 //! accuracy are in `tests/hysteresis`.

@@ -26,18 +26,16 @@ mod prewarped;
 /// `e`.
 ///
 /// **Form.** The filter is a state-variable filter with trapezoidal integrators (A. Simper,
-/// *Solving the continuous SVF equations using trapezoidal integration*, 2013). Its coefficients
-/// are proportional to `frequency`, and its integrators are compensated sums. A direct form has the
-/// same transfer function, but in `f32` it cannot represent a corner below 1/1000 of the sample
-/// rate (see test `a_low_corner_needs_this_form_in_single_precision` in `tests/signal/filters.rs`).
+/// *Solving the continuous SVF equations using trapezoidal integration*, 2013). In contrast to a
+/// direct form, it remains accurate in `f32` for a corner below 1/1000 of the sample rate
+/// (`tests/signal/filters.rs`).
 ///
 /// **Bounds.** For a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
 /// increases, for any sequence of `dt`. The output of a low-pass that starts at rest is therefore
 /// never further from `c` than at the start. The following limits apply to a start from rest with
 /// `dt` equal to the sample time. The output of a low-pass is at most `2 + 4·q/π` times the largest
-/// sample, and the output of a notch is at most 3 times the largest sample. The factors bound the
-/// sum of the magnitudes of the impulse response on a grid of `frequency` and `q`
-/// (`tests/signal/filters.rs`).
+/// sample, and the output of a notch is at most 3 times the largest sample. These limits were
+/// computed on a grid of `frequency` and `q` (`tests/signal/filters.rs`).
 ///
 /// ```
 /// use bowden::signal::{Biquad, BiquadState};

@@ -4,8 +4,7 @@ use crate::Real;
 
 /// Clamps `x` to `[low, high]`. NaN stays NaN.
 ///
-/// In contrast, `x.max(low).min(high)` turns NaN into a limit, which looks like a valid command. If
-/// `low > high`, the result is `low` for `x < low`, otherwise `high` for `x > high`.
+/// If `low > high`, the result is `low` for `x < low`, otherwise `high` for `x > high`.
 ///
 /// ```
 /// use bowden::signal::clamp;

@@ -14,8 +14,7 @@ crate::checked::stored! {
     ///
     /// The filter starts at rest at the first good sample, and the output is then that sample.
     /// Except for rounding errors, the output stays within the range of the samples. The output is
-    /// a compensated sum. With a tau of 1000·dt, a plain `f32` sum would stop short of its target,
-    /// with a relative error of up to 3e-5.
+    /// a compensated sum, so it reaches a constant input even in `f32`.
     ///
     /// For a second-order filter, see [`Biquad`](super::Biquad).
     ///

@@ -102,8 +102,7 @@ crate::checked! {
     /// period.
     ///
     /// A sensor may be slower than the loop, so a repeated reading counts as the same measurement.
-    /// The next reading may differ by `rate` times the time since the last *change*. The check
-    /// therefore accepts a correct sensor that repeats each reading several times.
+    /// The next reading may differ by `rate` times the time since the last *change*.
     ///
     /// After a reading has repeated for `t` seconds, the check also accepts a spike of up to
     /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`.
@@ -114,7 +113,7 @@ crate::checked! {
     /// While the check rejects samples, the permitted difference grows with time. If the signal has
     /// in fact jumped, the check accepts it again after the time `distance/rate`, rounded up to the
     /// next sample. The same applies to the new position of an encoder that was reset.
-    /// [`Rates`](crate::signal::Rates) downstream of this check then gives a velocity of up to
+    /// [`Rates`](crate::signal::Rates) downstream of the check then gives a velocity of up to
     /// `rate`. [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) prevents a
     /// feed-forward from using this velocity.
     ///

@@ -8,9 +8,8 @@ crate::checked::stored! {
     /// A reference ramp: a rate limit, followed by a first-order lag.
     ///
     /// The ramp is `r⁺ = r + clamp(wanted − r, ±rate·dt)`, and the reference is
-    /// `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the reference can require more than the drive
-    /// can deliver. Anti-windup then determines the response, not the gains. A ramp with a suitable
-    /// rate avoids saturation.
+    /// `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. With a suitable rate, a step of the reference does not
+    /// saturate the drive.
     ///
     /// ```
     /// use bowden::signal::{Ramp, RampState};

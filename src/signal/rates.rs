@@ -25,14 +25,13 @@ crate::checked::stored! {
     /// v⁺ = v + s·((x − x_last)/h − v)
     /// a⁺ = a + s·((v⁺ − v)/h − a)
     /// ```
-    /// These are two filtered derivatives in cascade, with the same time constant tau. Well below
-    /// the sample rate, `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position has no
-    /// delay, the velocity has a delay of tau, and the acceleration has a delay of 2·tau. At
-    /// `f` \[Hz\], with `w = 2π·f·tau`, the gain of the velocity is `1/√(1 + w²)` and its phase lag
-    /// is `atan(w)`. The acceleration has the square of this gain and twice this lag. At any sample
-    /// rate, with `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the
-    /// velocity is therefore exact. The delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is
-    /// tau to within `h²/(12·tau)`.
+    /// With the time constant tau, and well below the sample rate, `V/X = s/(tau·s + 1)` and
+    /// `A/X = s²/(tau·s + 1)²`. The position has no delay, the velocity has a delay of tau, and the
+    /// acceleration has a delay of 2·tau. At `f` \[Hz\], with `w = 2π·f·tau`, the gain of the
+    /// velocity is `1/√(1 + w²)` and its phase lag is `atan(w)`. The acceleration has the square of
+    /// this gain and twice this lag. At any sample rate, with `q = e^(−h/tau)`,
+    /// `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the velocity is therefore exact. The
+    /// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
     ///
     /// White noise with a standard deviation of `s_x` on the position gives noise of about
     /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both values are smaller if tau

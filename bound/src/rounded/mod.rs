@@ -24,7 +24,7 @@ use gains::Gains;
 ///
 /// Each inequality is computed in integers, rounded outwards, so the proof does not rely on
 /// floating-point arithmetic. The computation needs no heap, so a controller can check its own
-/// gains at start-up. The computing time on a microcontroller has not been measured.
+/// gains at start-up. Its computing time on a microcontroller has not been measured.
 ///
 /// *Proof.* The exact step stays in the box with a margin, as in
 /// [`PeakSampled`](super::PeakSampled). The rounding errors ([`Roundings`]) are smaller than the
