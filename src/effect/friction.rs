@@ -56,10 +56,10 @@ effect! {
     /// yield, magnetorheological fluids. An exponent above 1 describes shear-thickening fluids.
     ///
     /// Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
-    /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,
-    /// M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers", *Journal of
-    /// Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper development and
-    /// future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
+    /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers with `F = C·|v|^a·sgn(v)`, N.
+    /// Makris, M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers",
+    /// *Journal of Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper
+    /// development and future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
     ///
     /// ```
     /// use bowden::{effect::PowerLaw, Error};
