@@ -1,21 +1,20 @@
-//! The predicted output: a transmission plus effects, sample by sample.
+//! A model of the output: a transmission plus effects, evaluated sample by sample.
 //!
 //! ```text
 //! u = input + Σ gain·regressor                         (the input stages)
 //! y = transmission(u, eta) + Σ gain·regressor          (all terms that are not stages)
 //! y ← y + gain·regressor(y)                            (then each output stage, in order)
 //! ```
-//! Only the transmission reads u; every effect reads the measured signals.
+//! Only the transmission reads u. Every effect reads the measured signals.
 //!
-//! A regressor's x is the position minus the origin of the term; see [`Term`].
+//! The x of a regressor is the position minus the origin of the term (see [`Term`]).
 //!
-//! The bench fits a [`Model`], and the firmware runs it. A model uses no heap, has a fixed capacity
-//! of `N` terms, and is separate from its state. It may have no transmission (effects alone) or no
-//! terms.
+//! A [`Model`] has a capacity of `N` terms, uses no heap, and is separate from its state. Its
+//! transmission and its terms are optional.
 //!
-//! A bad sample leaves the state unchanged, and the step returns the last good output. A sample
-//! is bad if `dt` is not positive, a channel is missing, or a number that the model reads is
-//! not finite. The model ignores numbers that no term reads.
+//! A sample is bad if `dt` is not positive, a channel is missing, or a number that the model reads
+//! is not finite. A bad sample leaves the state unchanged, and the step returns the last good
+//! output.
 
 mod curve;
 #[cfg(feature = "serde")]
@@ -36,7 +35,7 @@ crate::data! {
     pub enum Source {
         /// The transmission's input.
         Input,
-        /// One of the sample's channels, from 0.
+        /// One of the sample's channels. The first channel has index 0.
         Channel(u8),
     }
 }
@@ -44,13 +43,11 @@ crate::data! {
 /// One effect of a model, with its gain and its origin.
 ///
 /// # Origin
-/// The effect reads `motion.position − origin`; velocity and acceleration come unchanged from the
-/// sensor. The zero of a sensor is arbitrary, but an effect such as `x·|x|` or `x·tanh(v/v_e)` is
-/// even, odd or largest about a specific position. With a different zero it is a different
-/// function, which no gain corrects. The bench identifies or selects this position, and the
-/// firmware must use the same origin with the same gain. Shape parameters that are positions
-/// (`x_h`) are measured from the origin. The origin does not shift the transmission's input, even
-/// if an effect reads the input in addition to its source (`degradation`).
+/// The effect reads the position minus the origin, and the unchanged velocity and acceleration. The
+/// zero of a sensor is arbitrary, but an effect such as `x·|x|` or `x·tanh(v/v_e)` depends on the
+/// distance from a specific position. A gain is therefore valid only with its origin. Shape
+/// parameters that are positions, such as `x_h`, are relative to the origin. The origin does not
+/// shift the transmission's input, which `degradation` reads in addition to its source.
 ///
 /// ```
 /// use bowden::effect::{Motion, StiffnessProgressive};
@@ -72,45 +69,45 @@ crate::data! {
 )]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Term<T, E = Effect<T>> {
-    /// The regressor: any effect, or an effect with its own type (see [`FixedModel`]).
+    /// The effect: an [`Effect`], or the type of one effect (see [`FixedModel`]).
     pub effect: E,
     /// The motion that the effect reads.
     pub source: Source,
-    /// Origin of the position that the effect reads \[channel unit\]; default in a file: 0.
+    /// Origin of the position that the effect reads \[channel unit\] (default in a file: 0).
     #[cfg_attr(feature = "serde", serde(default))]
     pub origin: T,
-    /// Coefficient of the regressor \[output unit / unit of the regressor\].
+    /// Gain of the regressor \[output unit / unit of the regressor\].
     pub gain: T,
 }
 
-/// One sample of the record, or of the firmware's sensors.
+/// One sample of the signals that a model reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<'a, T> {
-    /// Time since the previous sample \[s\]; above zero, also at the first sample.
+    /// Time since the previous sample \[s\]: positive, including at the first sample.
     pub dt: T,
-    /// The transmission's input, x or `tau_i`, with its rates.
+    /// The transmission's input (x or `tau_i`), with its velocity and acceleration.
     pub input: Motion<T>,
     /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
-    /// All other channels, in the order of the indices in [`Source::Channel`].
+    /// All other channels. [`Source::Channel`] contains the index of a channel in this slice.
     pub channels: &'a [Motion<T>],
 }
 
 /// A transmission plus at most `N` effects.
 ///
 /// # Formats (feature `serde`)
-/// In a human-readable format (TOML, JSON) a model is a file of schema `bowden.model/1`, as `bowden
-/// identify --model-out model.toml` writes it. Reading and writing use no heap; the channels' names
-/// take 2 KB of stack, 64 bits for each name. A term states its effect, its shape parameters, and
-/// its source. The source is `input` or one of `channels`, in the order of [`Sample::channels`].
-/// The table `about` may contain any keys; every other key is checked. A model stores only the
-/// numbers of its channels and writes them as `channel_0`, ….
+/// In a human-readable format (TOML, JSON), a model has the schema `bowden.model/1`, which
+/// `bowden identify --model-out model.toml` also writes. Reading and writing use no heap. The names
+/// of the channels take 2 KB of stack. The source of a term is `input` or one of `channels`, which
+/// have the order of [`Sample::channels`]. The table `about` may contain any keys. Elsewhere, an
+/// unknown key is an error. A model does not store the names of its channels, and writes them as
+/// `channel_0`, ….
 ///
-/// Every other format, such as postcard, stores the parts in order, without names: 143 bytes in
-/// `f32` for eight terms with eight shape parameters. The bytes state neither their precision nor
-/// their version, and identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE).
-/// Store them with a checksum (postcard's `to_slice_crc32`), and write them again for a new version
-/// of this crate.
+/// Any other format, such as postcard, stores the values in order, without names. Eight terms with
+/// eight shape parameters take 143 bytes in `f32`. The bytes contain neither their precision nor a
+/// version, and identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE). Store
+/// them with a checksum (`to_slice_crc32` of postcard), and write them again after an update of
+/// this crate.
 ///
 /// ```
 /// # #[cfg(feature = "serde")] {
@@ -148,13 +145,13 @@ pub struct Sample<'a, T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Model<T, const N: usize> {
     transmission: Option<Transmission<T>>,
-    /// The first `len` count; the others are the default.
+    /// Only the first `len` terms are used. The others are the default.
     terms: [Term<T>; N],
     len: usize,
     stages: Stages,
 }
 
-/// The stages among the terms, so a step need not search for them.
+/// Whether the terms include input or output stages, so a step need not search for them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Stages {
@@ -185,12 +182,11 @@ impl<T: Real> Default for Term<T> {
 }
 
 impl<T: Real, const N: usize> Model<T, N> {
-    /// Checks the number of terms, their origins and gains; other constructors have checked the
-    /// rest.
+    /// A model with this transmission and these terms.
     ///
     /// # Errors
-    /// [`Error::Capacity`] if there are more than `N` terms, [`Error::NonFinite`] if an origin
-    /// or a gain is not finite.
+    /// [`Error::Capacity`] if there are more than `N` terms; [`Error::NonFinite`] if an origin or a
+    /// gain is not finite.
     pub fn try_new(
         transmission: Option<Transmission<T>>,
         terms: &[Term<T>],
@@ -212,7 +208,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         })
     }
 
-    /// The same for checked terms, up to the capacity.
+    /// A model with `N` checked terms.
     fn full(transmission: Option<Transmission<T>>, terms: [Term<T>; N]) -> Self {
         Self {
             transmission,
@@ -227,12 +223,12 @@ impl<T: Real, const N: usize> Model<T, N> {
         self.transmission.as_ref()
     }
 
-    /// The effects with their gains, in their order.
+    /// The terms, in order.
     pub fn terms(&self) -> &[Term<T>] {
         self.terms.get(..self.len).unwrap_or(&self.terms)
     }
 
-    /// The terms alone.
+    /// The model without its transmission.
     pub(crate) fn without_transmission(&self) -> Self {
         Self {
             transmission: None,
@@ -240,7 +236,8 @@ impl<T: Real, const N: usize> Model<T, N> {
         }
     }
 
-    /// The terms alone, without the selected ones; the others keep their indices.
+    /// The terms without the selected terms and without the transmission. The other terms keep
+    /// their indices.
     pub(crate) fn without_terms(&self, is_left_out: impl Fn(&Term<T>) -> bool) -> Self {
         let mut kept = self.without_transmission();
         for term in &mut kept.terms {
@@ -252,7 +249,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         kept
     }
 
-    /// Whether the model can use this sample; otherwise a step holds its output and state.
+    /// Whether the sample is good. A step ignores a bad sample.
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
         let input_is_read = self.transmission.is_some();
@@ -285,8 +282,8 @@ impl<T: Real, const N: usize> Model<T, N> {
         })
     }
 
-    /// Whether every number that a term may read is finite. This is true of the usual sample,
-    /// which then needs no test per effect.
+    /// Whether every number that a term may read is finite. A usual sample passes this test, and
+    /// then needs no test per effect.
     #[inline]
     fn sees_all(&self, at: &Sample<T>, sees_source: impl Fn(Source) -> bool) -> bool {
         let mut sees = at.dt.is_finite() && at.dt >= T::ZERO && at.load.is_finite();
@@ -304,11 +301,11 @@ impl<T: Real, const N: usize> Model<T, N> {
         self.search_blind_term(at).is_none()
     }
 
-    /// Advances the memories of the effects by one good sample, for models without stages;
-    /// returns the sum of their shares. The clock is unchanged.
+    /// Advances the memories of the effects by one good sample, for models without stages, and
+    /// returns the sum of the contributions. The clock does not change.
     ///
-    /// The caller sets `time` and `eta`. `own` changes the data that a term reads of the
-    /// sample: its motion, the input and the load.
+    /// The caller sets `time` and `eta`. `own` changes the data of the sample that a term reads:
+    /// its motion, the input and the load.
     pub(crate) fn effects(
         &self,
         state: &mut ModelState<T, N>,
@@ -332,18 +329,17 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// Advances by one sample and returns the predicted output.
     ///
-    /// A bad sample leaves the state unchanged and returns the last good output, 0 before the
-    /// first one; see [`Model::accepts`].
+    /// A bad sample (see [`Model::accepts`]) leaves the state unchanged and returns the last good
+    /// output, or 0 before the first good sample.
     pub fn step(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same step, which also reports each term's contribution to the output.
+    /// Like [`step`](Self::step), but also reports the contribution of each term to the output.
     ///
-    /// The step calls `share(index, gain·regressor)` once per term, output stages last, and makes
-    /// no call on a bad sample. The output minus the sum of these contributions is the contribution
-    /// of the transmission. It includes the effect of the input stages, for which the step makes no
-    /// call.
+    /// The function calls `share(index, contribution)` once per term, with the output stages last.
+    /// It makes no call for an input stage, or on a bad sample. The output minus the sum of these
+    /// contributions is the contribution of the transmission, which includes the input stages.
     ///
     /// ```
     /// use bowden::effect::{Inertia, Motion, Viscous};
@@ -400,7 +396,7 @@ impl<T: Real, const N: usize> Model<T, N> {
 
     /// The output of the transmission for the input, and its hysteresis state.
     ///
-    /// A call: its stack must not add to the stack of the effects.
+    /// This function is not inlined, because its stack must not add to the stack of the effects.
     #[inline(never)]
     fn transmitted(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> (T, T) {
         let Some(transmission) = &self.transmission else {
@@ -415,7 +411,7 @@ impl<T: Real, const N: usize> Model<T, N> {
         (saturate(force), state.hysteresis.eta())
     }
 
-    /// The input after the input stages.
+    /// The input of the transmission, after the input stages.
     fn staged_input(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
         let mut there = around(at, state.time.value, T::ZERO);
         let places = self.terms().iter().zip(&mut state.effects);
@@ -439,7 +435,7 @@ fn motion<'a, T>(source: Source, at: &'a Sample<T>) -> Option<&'a Motion<T>> {
     }
 }
 
-/// The same as a value: a sample that a caller builds need not be in memory.
+/// The same as [`motion`], but by value, so a sample that the caller builds need not be in memory.
 #[inline]
 fn motion_of<T: Real>(source: Source, at: &Sample<T>) -> Option<Motion<T>> {
     match source {
@@ -470,7 +466,7 @@ fn counted_from<T: Real>(origin: T, mut motion: Motion<T>) -> Motion<T> {
     motion
 }
 
-/// The data of the sample for all terms; each term has its own motion.
+/// The data of the sample for all terms. Each term replaces the motion.
 #[inline]
 fn around<T: Real>(at: &Sample<T>, time: T, eta: T) -> Inputs<T> {
     Inputs {

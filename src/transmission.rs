@@ -1,31 +1,31 @@
-//! The cable transmission: displacement to force, torque to torque, and the inverse.
+//! The cable transmission (displacement to force, or torque to torque) and its inverse.
 //!
-//! - Displacement, (1)-(2): `F = kappa_x·x + kappa_eta·eta + offset`.
-//! - Torque, (5)-(7): `tau_o = B·tau_i - kappa_eta·eta - T0`.
+//! - Displacement mode, equations (1)-(2): `F = kappa_x·x + kappa_eta·eta + offset`.
+//! - Torque mode, equations (5)-(7): `tau_o = B·tau_i - kappa_eta·eta - T0`.
 //!
-//! In both modes `eta` is the hysteresis of [`BoucWen`], advanced by the input.
+//! In both modes, `eta` is the hysteresis state of [`BoucWen`], which the input drives.
 //!
 //! # The inverse
-//! The inverse computes the input for a given output, which is unique if the output rises with the
-//! input on every branch. The slope of eta over the input lies in `[0, rho·max(1, 2·sigma)]`, and
-//! 2·sigma >= 1. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. This
-//! bound is 0.743 for the first parameter set of Nguyen et al. (2018), which has sigma = 98.36.
-//! Such a set is suitable only for simulation and identification: after a reversal, the output of
-//! such a plant falls while its input rises.
+//! The inverse computes the input for a given output. The input is unique if the output rises with
+//! the input on every branch. The slope of eta over the input lies in `[0, 2·sigma·rho]`. In torque
+//! mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. For the first parameter set of
+//! Nguyen et al. (2018) this bound is 0.743, but sigma is 98.36. Use such a set only for simulation
+//! and identification: after a reversal, its output falls while its input rises.
 //!
-//! The condition follows from the slope of the equation. The `f32` step is no steeper up to n = 4
-//! (proved) and up to n = 10 (measured). From about n = 12 on it may be 1.39 times as steep; see
-//! [`hysteresis`](crate::hysteresis). For such n, choose sigma below the bound divided by 1.39.
+//! The condition follows from the slope of the equation. The slope of the `f32` step does not
+//! exceed it up to n = 4 (proved) and up to n = 10 (measured). For n of about 12 or more, the step
+//! may have up to 1.39 times the slope of the equation (see [`hysteresis`](crate::hysteresis)). For
+//! such n, choose sigma below the bound divided by 1.39.
 //! [`Transmission::greatest_invertible_sigma`] returns the bound.
-//! [`Transmission::nearest_invertible`] returns a transmission within it.
+//! [`Transmission::nearest_invertible`] returns a transmission that satisfies it.
 //!
 //! # Noise in front of the hysteresis
-//! The model treats every noise sample on its input as a reversal. Noise of 0.05 N·m rms on `tau_i`
-//! moves `kappa_eta·eta` of the first set by 3.7 N·m rms. A [`Play`](crate::signal::Play) in front
-//! of the model, with a half-width of four standard deviations of the noise, reduces this to 0.74
-//! (sigma = 1/2: from 1.8 to 0.11). These numbers are from the test
-//! `noise_destroys_the_state_and_a_play_guards_it` in `tests/transmission.rs`. A play delays a
-//! reversal by its width: use it on a measured input, not on a commanded input.
+//! Noise on the input causes false reversals. With the first set, noise of 0.05 N·m rms on `tau_i`
+//! changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of the model,
+//! with a half-width of four standard deviations of the noise, reduces this error to 0.74 N·m rms.
+//! For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms (test
+//! `noise_destroys_the_state_and_a_play_guards_it`). Use a play only on a measured input, because
+//! it delays each reversal by its width.
 
 use crate::error::must_be_finite;
 use crate::hysteresis::{BoucWen, BoucWenState};
@@ -45,7 +45,7 @@ crate::data! {
     pub enum Mode {
         /// Proximal torque [N·m] to distal torque [N·m], equations (5)-(7).
         Torque,
-        /// Displacement to force, equations (1)-(2); or voltage to displacement.
+        /// Displacement to force or voltage to displacement, equations (1)-(2).
         Displacement,
     }
 }
@@ -84,12 +84,12 @@ crate::checked::stored! {
 crate::checked! {
     Transmission<T>;
 
-    /// Torque to torque: `tau_o = b·tau_i - kappa_eta·eta - t0`, (5)-(7).
+    /// Torque mode, equations (5)-(7): `tau_o = b·tau_i - kappa_eta·eta - t0`.
     ///
     /// `b` is the torque ratio `1 - kappa_tau`, `kappa_eta` [N·m] is the hysteresis torque at
     /// saturation, and `t0` [N·m] is the preload. Physical values are `0 < b <= 1` and
-    /// `kappa_eta >= 0`, but any finite value is accepted, so that every result of a fit can be
-    /// represented.
+    /// `kappa_eta >= 0`. The constructor accepts any finite value, so the type can represent every
+    /// result of a fit.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"b"`, `"kappa_eta"` or `"t0"`.
@@ -101,7 +101,7 @@ crate::checked! {
         Ok(Transmission { mode, gain, kappa_eta, offset, shape })
     }
 
-    /// Displacement to force: `F = kappa_x·x + kappa_eta·eta + offset`, (1)-(2).
+    /// Displacement mode, equations (1)-(2): `F = kappa_x·x + kappa_eta·eta + offset`.
     ///
     /// The unit of `kappa_x` is [output unit/input unit], and the unit of `kappa_eta` and `offset`
     /// is [output unit]. Both gains are positive for a cable or a spring. An actuator whose
@@ -129,7 +129,7 @@ impl<T: Real> Transmission<T> {
         self.gain
     }
 
-    /// Gain of the hysteresis [output unit], with the sign of its mode's equation.
+    /// Gain of the hysteresis [output unit], with its sign in the equation of the mode.
     pub fn kappa_eta(&self) -> T {
         self.kappa_eta
     }
@@ -139,7 +139,7 @@ impl<T: Real> Transmission<T> {
         self.offset
     }
 
-    /// Shape parameters of the hysteresis.
+    /// Parameters of the hysteresis.
     pub fn shape(&self) -> &BoucWen<T> {
         &self.shape
     }
@@ -157,7 +157,8 @@ impl<T: Real> Transmission<T> {
     /// Advances by the input of one sample and returns the output [output unit].
     ///
     /// The first sample keeps the initial eta. A sample that is not finite leaves the state
-    /// unchanged; the step returns the output at the last good input, or zero if there is none.
+    /// unchanged. The step then returns the output at the last good input, or zero if there is
+    /// none.
     #[inline]
     pub fn step(&self, state: &mut BoucWenState<T>, input: T) -> T {
         let eta = self.shape.step(state, input);
@@ -167,7 +168,7 @@ impl<T: Real> Transmission<T> {
         }
     }
 
-    /// The same for a finite input.
+    /// The same as [`step`](Self::step), for a finite input.
     #[inline]
     pub(crate) fn step_finite(&self, state: &mut BoucWenState<T>, input: T) -> T {
         self.shape.step(state, input);
@@ -176,11 +177,11 @@ impl<T: Real> Transmission<T> {
 
     /// The largest sigma for which this transmission has an inverse.
     ///
-    /// The value is `|gain|/(2·|kappa_eta|·rho)`, rounded down as [`inverse`](Self::inverse)
-    /// requires. If the hysteresis adds to the gain (a spring), the output never reverses, and the
-    /// value is the largest sigma that a [`BoucWen`] accepts. `None` means that no sigma gives an
-    /// inverse: the gain is zero, or the bound is below 1/2, which means `rho >
-    /// |gain|/|kappa_eta|`.
+    /// The value is `|gain|/(2·|kappa_eta|·rho)`, rounded down so that [`inverse`](Self::inverse)
+    /// accepts it. If the hysteresis acts in the direction of the gain, as in a spring, the output
+    /// never reverses. The value is then the largest sigma that [`BoucWen`] accepts. `None` means
+    /// that no sigma gives an inverse, because the gain is zero or the bound is below 1/2 (`rho`
+    /// above `|gain|/|kappa_eta|`).
     ///
     /// ```
     /// use bowden::hysteresis::BoucWen;
@@ -209,23 +210,22 @@ impl<T: Real> Transmission<T> {
             .filter(|sigma| *sigma >= T::from_f64(0.5))
     }
 
-    /// The nearest transmission with an inverse: this transmission itself if it has an inverse.
+    /// The nearest transmission with an inverse.
+    ///
+    /// If this transmission has an inverse, the result is this transmission.
     ///
     /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
     /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
     /// `|gain|/|kappa_eta|`. The knee of the loop then becomes rounder, but the loop keeps its
-    /// height, which matters in every long motion. A lower kappa_eta instead of a lower rho would
-    /// make every saturated sample wrong: on loops of ten times 1/rho or more, the rms error would
-    /// be more than twice as large (test `a_rounder_knee_costs_less_than_a_lower_loop` in
-    /// `tests/transmission.rs`).
+    /// height.
     ///
-    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. The
-    /// computed input then changes at an unbounded rate, but by a bounded amount in one sample, so
-    /// a slew-rate limit after the inverse does no harm.
+    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. At such a
+    /// reversal, the rate of the computed input is unbounded, but the change in one sample is
+    /// bounded. A slew-rate limit may therefore follow the inverse.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no float
-    /// is small enough for rho.
+    /// is small enough.
     pub fn nearest_invertible(&self) -> Result<Self, Error> {
         if self.gain == T::zero() || self.inverse().is_ok() {
             return self.inverse().map(|_| *self);
@@ -274,11 +274,11 @@ impl<T: Real> Transmission<T> {
         !self.is_aided() && (against.is_nan() || against > self.gain.abs())
     }
 
-    /// The inverse: the input for a given output.
+    /// The inverse, which computes the input for a given output.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] if the output does not rise (for a negative gain: fall) with the
-    /// input on every branch, see the module documentation.
+    /// [`Error::Inadmissible`] if the gain is zero, or if the output does not rise (with a negative
+    /// gain, fall) with the input on every branch (see the [module](crate::transmission)).
     pub fn inverse(&self) -> Result<Inverse<T>, Error> {
         if self.gain == T::zero() {
             return Err(Error::Inadmissible(

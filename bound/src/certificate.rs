@@ -1,4 +1,4 @@
-//! A certificate: a bound with its value, its unit, and its assumptions.
+//! A certificate: a bound with its value, unit and assumptions.
 
 /// The theorem behind a certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -19,9 +19,9 @@ pub enum Kind {
     PeakContinuous,
     /// [`PeakSampled`](super::PeakSampled): the box theorem.
     PeakSampled,
-    /// [`PeakRounded`](super::PeakRounded): the box theorem with every rounding.
+    /// [`PeakRounded`](super::PeakRounded): the box theorem with all rounding errors.
     PeakRounded,
-    /// [`PerStep`](super::PerStep), summed over all time.
+    /// The bound from [`PerStep`](super::PerStep) for infinite time.
     PerStep,
 }
 
@@ -66,7 +66,7 @@ impl<T> Certificate<T> {
         "N·m"
     }
 
-    /// Assumptions that the user must check; the list omits assumptions that the types check.
+    /// Assumptions that the user must check. The constructors check all other assumptions.
     #[must_use]
     pub fn assumptions(&self) -> &'static [&'static str] {
         match self.kind {

@@ -2,7 +2,7 @@
 
 use bowden::{Error, Real};
 
-/// A finite number; refuses NaN and infinities.
+/// A finite number. NaN and infinities are errors.
 pub(crate) fn finite<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
     if value.is_finite() {
         Ok(value)
@@ -11,7 +11,7 @@ pub(crate) fn finite<T: Real>(value: T, name: &'static str) -> Result<T, Error> 
     }
 }
 
-/// A finite number above zero.
+/// A positive finite number.
 pub(crate) fn above_zero<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
     if finite(value, name)? > T::ZERO {
         Ok(value)

@@ -20,7 +20,8 @@ enum Towards {
 
 /// `mantissa·2^exponent`, with at most 62 bits of mantissa.
 ///
-/// Every finite float is exactly such a number. The text form, such as `13*2^-4`, is exact too.
+/// This type represents every finite float exactly. The text form, such as `13*2^-4`, is also
+/// exact.
 ///
 /// ```
 /// use bowden_bound::Dyadic;
@@ -46,7 +47,7 @@ impl Dyadic {
         exponent: 0,
     };
 
-    /// The exact value of a finite float; zero for a float that is not finite.
+    /// The exact value of a finite float, or zero for a float that is not finite.
     #[must_use]
     pub fn of<T: Real>(x: T) -> Self {
         if !x.is_finite() {
@@ -84,7 +85,7 @@ impl Dyadic {
         Self::exactly(kept, exponent.saturating_add_unsigned(over))
     }
 
-    /// The next number of at most `bits` bits that is not below this one.
+    /// The smallest number with at most `bits` bits that is not below this one.
     #[must_use]
     pub fn shortened(self, bits: u32) -> Self {
         Self::cut(self.mantissa, self.exponent, bits, Towards::Above)
@@ -121,7 +122,7 @@ impl Dyadic {
         Self::cut(self.mantissa * other.mantissa, exponent, BITS, to)
     }
 
-    /// The quotient by a number above zero.
+    /// The quotient by a positive number.
     fn over(self, divisor: Self, to: Towards) -> Self {
         // The dividend is as long as it can be, so that the quotient has 62 bits.
         let zeros = self.mantissa.unsigned_abs().leading_zeros();
@@ -137,7 +138,7 @@ impl Dyadic {
         Self::cut(quotient, exponent, BITS, to)
     }
 
-    /// The nearest `f64`, or a neighbour of it.
+    /// The nearest `f64`, or a neighbour of the nearest.
     #[must_use]
     #[allow(clippy::cast_precision_loss)] // 62 bits into 53: next to the nearest
     pub fn as_f64(self) -> f64 {
@@ -201,10 +202,10 @@ impl Ord for Dyadic {
     }
 }
 
-/// An interval that contains the result of every operation, for any rounding of the operands.
+/// An interval, rounded outwards so that it contains the exact result of each operation.
 ///
-/// A quotient by an interval that contains zero is the interval of all numbers. A comparison is
-/// true only if it is certain: [`is_at_most`](Self::is_at_most).
+/// A quotient by an interval that contains zero is the interval of all numbers. A comparison
+/// ([`is_at_most`](Self::is_at_most)) is true only if it is certain.
 ///
 /// ```
 /// use bowden_bound::Enclosure;
@@ -247,13 +248,13 @@ impl Enclosure {
         Self::exactly(Dyadic::power(exponent))
     }
 
-    /// Lower end: not above the number.
+    /// Lower end, which is not above the exact value.
     #[must_use]
     pub const fn low(&self) -> Dyadic {
         self.low
     }
 
-    /// Upper end: not below the number.
+    /// Upper end, which is not below the exact value.
     #[must_use]
     pub const fn high(&self) -> Dyadic {
         self.high
@@ -284,7 +285,7 @@ impl Enclosure {
         }
     }
 
-    /// The greater of two.
+    /// The greater of two numbers.
     #[must_use]
     pub fn max(self, other: Self) -> Self {
         Self {

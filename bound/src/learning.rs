@@ -1,4 +1,4 @@
-//! Convergence of iterative learning from cycle to cycle, over a range of plants.
+//! Convergence of iterative learning control from cycle to cycle, over a range of plants.
 
 use super::halving::Halving;
 use super::observer::proportional_and_integral;
@@ -20,55 +20,55 @@ const MOST_BOXES: u32 = 500_000;
 /// Most halvings of a region.
 const MOST_HALVINGS: u32 = 80;
 
-/// Convergence of iterative learning on top of a P or PI, for every plant of a range.
+/// Convergence of iterative learning control with a P or PI controller, for every plant of a range.
 ///
-/// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)`
-/// be the transfer function from feed-forward to measured output. The factor of a tone of the
-/// learning error over one cycle is
+/// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)` be
+/// the transfer function from the feed-forward to the measured output. Over one cycle, a sinusoid
+/// in the learning error is multiplied by the factor
 ///
 /// ```text
 /// H = Q·(1 − forgetting − gain·e^(jw·lead·T)·Σ S(w·T/2 + pi·k)³·G(j(w + 2·pi·k/T)))
 /// ```
-/// T is the time of a cell. `S(x) = sin(x)/x` describes the mean over a cell and, squared, the
-/// linear interpolation between two cells. The sum over all whole numbers k contains their images,
-/// and Q is the filter of [`IterativeLearning`]. The certificate proves for every plant and every
-/// cycle time of the range:
-/// - The loop without learning is stable, by zero exclusion as in
+/// T is the duration of a cell. `S(x) = sin(x)/x` describes the mean over a cell, and `S²` the
+/// linear interpolation between two cells. The sum over all integers k includes the images
+/// (aliases). Q is the filter of [`IterativeLearning`]. The certificate proves for every plant and
+/// every cycle time of the range:
+/// - The loop without learning control is stable, by zero exclusion as in
 ///   [`ObserverStability`](super::ObserverStability).
-/// - `|H| <= factor` at every frequency from the cycle's own frequency to the Nyquist frequency
-///   of the cells, including frequencies between the harmonics. With a P this holds from zero
-///   on.
-/// - With a PI, `|H| < 1` between zero and the cycle's own frequency.
+/// - `|H| <= factor` at every frequency from the frequency of the cycle to the Nyquist frequency of
+///   the cells, including frequencies between the harmonics. With a P controller, this holds from
+///   zero frequency.
+/// - With a PI controller, `|H| < 1` between zero and the frequency of the cycle.
 ///
-/// The proof uses intervals that are rounded outwards and bisected until they show the inequality.
-/// In the images `|G|` is at most its bound above the cells' Nyquist frequency, and their total
-/// factor is at most `0.32·|sin(w·T/2)|³`.
+/// The proof bisects regions until interval arithmetic, rounded outwards, shows the inequality. For
+/// the images, `|G|` is at most its bound above the Nyquist frequency of the cells, and the sum of
+/// their factors is at most `0.32·|sin(w·T/2)|³`.
 ///
-/// The error therefore converges to its limit e* from any start. *Proof.* In units of cells, the
-/// learned feed-forward is `z⁻ⁿ·H` times its value n cells earlier, plus external inputs. This
-/// operator is causal, because `lead + half_width + 1 < n`, and as stable as the loop. Its
-/// magnitude is below 1 on the unit circle, and therefore everywhere outside the circle, so `1 −
-/// z⁻ⁿ·H` has no zero there. With a PI without forgetting the magnitude is 1 at `z = 1`: the
-/// learned mean and the integral of the law are interchangeable, and the output shows neither. ∎
+/// The error therefore converges to its limit e* from any initial value. *Proof.* In units of
+/// cells, the learned feed-forward is `z⁻ⁿ·H` times its value n cells earlier, plus external
+/// inputs. This operator is causal, because `lead + half_width + 1 < n`, and as stable as the loop.
+/// Its magnitude is below 1 on the unit circle, and therefore everywhere outside the circle. Hence
+/// `1 − z⁻ⁿ·H` has no zero there. For a PI controller without forgetting, the magnitude is 1 at
+/// `z = 1`. There, the learned mean and the integral of the controller are interchangeable, and the
+/// output shows neither of the two. ∎
 ///
-/// A tone of `e − e*` falls by a factor of about |H| from cycle to cycle; the factor is exact if
-/// the change of a cycle has settled before the next one. At the harmonics, e* is zero if
-/// forgetting is zero and Q is one. If Q is small, e* may be *larger* than the error without
-/// learning.
+/// From cycle to cycle, the amplitude of a sinusoid in `e − e*` is multiplied by about |H|. The
+/// factor is exact if the change of a cycle has settled before the next cycle. At the harmonics, e*
+/// is zero if forgetting is zero and Q is one. If Q is small, e* may be *larger* than the error
+/// without learning control.
 ///
 /// Further assumptions:
-/// - one constant cycle time, and a phase that is uniform in time;
-/// - a plant of this form;
-/// - many samples per cell;
-/// - friction and load repeat, or they are bounded disturbances (learning cannot remove these, and
-///   a part of them returns one cycle later);
-/// - no limit is active, neither of the command nor of the learned values, and no sample is
-///   bad.
+/// - the cycle time is constant, and the phase advances at a constant rate;
+/// - the plant has this form;
+/// - there are many samples per cell;
+/// - friction and load repeat, or they are bounded disturbances (which learning control cannot
+///   remove, and of which a part returns one cycle later);
+/// - neither the command nor a learned value saturates, and no sample is bad.
 ///
 /// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
 /// slope that changes along the path.
 ///
-/// If no proof is found, the cause may be the limited number of regions and not the range.
+/// If no proof is found, the cause may be the limit on the number of regions.
 ///
 /// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 /// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.
@@ -99,19 +99,19 @@ const MOST_HALVINGS: u32 = 80;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct IterativeLearningConvergence {
-    /// The plants of the certificate.
+    /// The range of plants of the certificate.
     pub plants: PlantRange,
-    /// The cycle times of the certificate \[s\].
+    /// The range of cycle times of the certificate \[s\].
     pub cycle: Interval<f64>,
-    /// Upper bound on |H| from the cycle's own frequency upwards (with a P, from zero upwards);
-    /// below that frequency |H| is less than one.
+    /// Upper bound on |H| at and above the frequency of the cycle (with a P controller, from zero).
+    /// Below that frequency, |H| is less than one.
     pub factor: f64,
     /// Number of regions of plants, cycle times and frequencies in the proof.
     pub boxes: u32,
 }
 
 impl IterativeLearningConvergence {
-    /// Proves convergence with `|H| <= factor` from the cycle's own frequency upwards.
+    /// Proves convergence with `|H| <= factor` at and above the frequency of the cycle.
     ///
     /// `cells` is the length of the learning buffers, and `cycle` is the range of the cycle time
     /// \[s\].
@@ -119,12 +119,12 @@ impl IterativeLearningConvergence {
     /// # Errors
     /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the range, the
     ///   `"cycle"` or the `"factor"`.
-    /// - [`Error::Inadmissible`] if the law is no P or PI, or if the loop without learning is
-    ///   not shown to be stable.
-    /// - [`Error::Inadmissible`] if there are too few cells for lead and filter, or so few that
-    ///   the loop responds above their Nyquist frequency.
-    /// - [`Error::Inadmissible`] if no proof was found: on some plant a tone of the learning
-    ///   error grows, or decays more slowly.
+    /// - [`Error::Inadmissible`] if the controller is not P or PI, or if no proof of stability
+    ///   without learning control was found.
+    /// - [`Error::Inadmissible`] if there are too few cells for the lead and the filter, or so few
+    ///   that the loop responds above the Nyquist frequency of the cells.
+    /// - [`Error::Inadmissible`] if no proof of convergence was found. With some plant, a sinusoid
+    ///   in the learning error may grow, or decay more slowly than `factor`.
     pub fn try_new<T: Real>(
         learning: &IterativeLearning<T>,
         cells: usize,

@@ -12,30 +12,30 @@
 //! | [`PerStep`] | first order, sampled, bounded estimates | V from step to step |
 //!
 //! Two further types certify a PI controller for every plant in a range:
-//! - [`ObserverStability`] certifies that a PI with a
+//! - [`ObserverStability`] certifies that a PI controller with a
 //!   [`DisturbanceObserver`](bowden::control::DisturbanceObserver) is stable.
-//! - [`IterativeLearningConvergence`] certifies that a PI with
+//! - [`IterativeLearningConvergence`] certifies that a PI controller with
 //!   [`IterativeLearning`](bowden::control::IterativeLearning) converges.
 //!
 //! Each certificate in the table is constructed from an [`Adaptive`](bowden::control::Adaptive) law
-//! and a [`Plant`], which holds the known ranges of the plant. The constructors check every
-//! assumption that these two determine; [`Certificate::assumptions`] lists those that the user must
-//! check. The documentation of each type states all assumptions in full.
+//! and a [`Plant`], which contains the known ranges of the plant. The constructors check every
+//! assumption that these two determine. [`Certificate::assumptions`] lists the assumptions that the
+//! user must check. The documentation of each type lists all assumptions.
 //!
 //! **The bound of Theorem 1 is correct but vacuous.** With the gains of Table 2, alpha = 0.5 and
-//! Delta = 7 N·m, the bound is 1138 N·m, whereas the measured error is 0.3 N·m RMS. The other
-//! certificates are useful.
+//! Delta = 7 N·m, the bound is 1138 N·m, but the measured error is 0.3 N·m rms.
 //!
 //! # Corrections to the paper
-//! - (35)-(38) hold only as limits superior, or for all time if V starts below phi/theta.
-//!   `|e| <= sqrt(1 + lambda²)·delta`, which is less than `(1 + lambda)·delta`.
+//! - (35)-(38) hold only as limits superior, or for all time if V is initially below phi/theta. The
+//!   bound can be reduced from `(1 + lambda)·delta` to `|e| <= sqrt(1 + lambda²)·delta`.
 //! - Delta = 7 N·m is kappa_eta, not the bound on `D_h = kappa_eta·eta + d + T0`. With
 //!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`: 7.056 N·m for the first parameter set
 //!   without d.
-//! - The constant 0.2785 is W(1/e) = 0.27846, for `tanh`; for the clamped sign it is 1/4.
+//! - The constant 0.2785 is W(1/e) = 0.27846 and applies to `tanh`. For the clamped sign, the
+//!   constant is 1/4.
 //! - Remark 1 (less leakage gives a smaller error) is true for the RMS certificate, but false for
 //!   delta, which grows without bound as the leakage tends to zero.
-//! - The "control laws (26), (30)" in the text should read (19) and (23).
+//! - The text refers to "control laws (26), (30)", which should be (19) and (23).
 
 #![no_std]
 #![forbid(unsafe_code)]

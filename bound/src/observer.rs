@@ -1,4 +1,4 @@
-//! Robust stability of a PI with a disturbance observer, over a range of plants.
+//! Robust stability of a PI controller with a disturbance observer, over a range of plants.
 
 use super::plants::{PlantRange, Plants};
 use super::span::{Plane, Span};
@@ -6,43 +6,44 @@ use super::zeros::{excluded, Closed};
 use bowden::control::{DerivativeSource, DisturbanceObserver, Pid, PidSettings};
 use bowden::{Error, Real};
 
-/// A P or PI with a disturbance observer that is stable for every plant of a range.
+/// Stability of a P or PI controller with a disturbance observer, for every plant of a range.
 ///
-/// With `C = k_p + k_i/s`, `Q = 1/(tau·s + 1)²` and the observer's latency as `1/(L·s + 1)`,
-/// the loop is stable if no zero of
+/// Let `C = k_p + k_i/s` and `Q = 1/(tau·s + 1)²`, and let `1/(L·s + 1)` be the latency of the
+/// observer. The loop is stable if no zero of
 ///
 /// ```text
 /// F(s) = s·D~·((tau·s + 1)² − 1/(L·s + 1))
 ///        + f·alpha~·(1 + c/K·s)·e^(−theta·s)·((k_p·s + k_i)·(tau·s + 1)² + s·D/alpha)
 /// ```
-/// lies in the closed right half-plane. The cancelled factor `(L·s + 1)·(tau·s + 1)²` has no
-/// zero there. `D = s²/wn² + 2·zeta·s/wn + 1` belongs to the nominal plant, and
-/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` to the plant (both divided by s for a P).
+/// lies in the closed right half-plane. The cancelled factor `(L·s + 1)·(tau·s + 1)²` has no zero
+/// there. `D = s²/wn² + 2·zeta·s/wn + 1` is the denominator of the nominal plant, and
+/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` that of the plant. For a P controller, both terms
+/// are divided by s.
 ///
 /// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`,
-/// whose zeros lie on the left by Routh. From there, all numbers of the plant and L move along a
-/// straight line to a plant of the range and to the observer's latency, and the plant then moves to
-/// any other plant of the range. In the right half-plane with `|s| >= r`, the first term of F is
-/// the larger one along this whole path, so a zero could cross only the imaginary axis, below r.
-/// There, intervals that are rounded outwards and bisected show that F is not zero (zero
-/// exclusion). ∎
+/// whose zeros are in the left half-plane by Routh's criterion. From there, the plant and L move
+/// along a straight line to a plant of the range and to the latency of the observer. The plant then
+/// moves to any other plant of the range. In the right half-plane with `|s| >= r`, the first term
+/// of F is the larger term along the whole path. A zero could therefore cross only the imaginary
+/// axis below r. On this part of the axis, interval arithmetic on bisected regions, rounded
+/// outwards, shows that F is not zero (zero exclusion). ∎
 ///
-/// For single plants the proved limit and the true stability limit agree to within a few per cent
-/// (test `bound`). The proof may fail for a stable loop if the loop is near the limit, or if the
-/// path leads through unstable plants.
+/// For single plants, the proved limit and the true stability limit agree to within a few per cent
+/// (test `bound`). The proof may fail for a stable loop that is near the stability limit, or if the
+/// path contains unstable plants.
 ///
 /// Further assumptions:
-/// - a plant of this form;
-/// - continuous time: the sample time is much shorter than tau and 1/wn, and the observer's
-///   latency is at least one sample;
-/// - the lags of drive and sensor act as a delay;
-/// - neither the command's limit nor the observer's limit is active;
+/// - the plant has this form;
+/// - the sample time is much shorter than tau and 1/wn (continuous time), and the latency of the
+///   observer is at least one sample;
+/// - the lags of the drive and the sensor act as a delay;
+/// - neither the command nor the observer saturates;
 /// - friction and load are bounded disturbances;
-/// - libm's sine and cosine have an error of less than 1e-12.
+/// - the sine and cosine of libm have an error of less than 1e-12.
 ///
 /// The range of f covers each slope of a hysteresis separately, but not a slope that changes along
-/// the path. No range can contain a cable whose output falls while its input rises (f below zero):
-/// with such a cable the loop oscillates.
+/// the path. No range can contain a cable whose output falls while its input rises (f negative),
+/// because the loop oscillates with such a cable.
 ///
 /// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
 /// exclusion).
@@ -72,9 +73,9 @@ use bowden::{Error, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverStability {
-    /// The plants of the certificate.
+    /// The range of plants of the certificate.
     pub plants: PlantRange,
-    /// Frequency r above which the first term is larger \[rad/s\].
+    /// Frequency r above which the first term of F is the larger term \[rad/s\].
     pub highest: f64,
     /// Number of regions of plants and frequencies in the proof below r.
     pub boxes: u32,
@@ -97,9 +98,9 @@ impl ObserverStability {
     ///
     /// # Errors
     /// - [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the range.
-    /// - [`Error::Inadmissible`] if the law is no P or PI, or if the nominal loop without
+    /// - [`Error::Inadmissible`] if the controller is not P or PI, or if the nominal loop without
     ///   latency is not stable.
-    /// - [`Error::Inadmissible`] if no proof was found: some plant is unstable, or near the
+    /// - [`Error::Inadmissible`] if no proof was found. Some plant may be unstable, or near the
     ///   stability limit.
     pub fn try_new<T: Real>(
         observer: &DisturbanceObserver<T>,

@@ -7,7 +7,7 @@ use bowden::{Error, Real};
 
 /// Peak of the error in continuous time, with bounds on the estimates.
 ///
-/// Let `g = alpha·beta_hat` and `w = (g-1)·y_r + (g·theta_hat - theta)'x - D`. The law as
+/// Let `g = alpha·beta_hat` and `w = (g-1)·y_r + (g·theta_hat - theta)'x - D`. The adaptive law as
 /// published is
 ///
 /// ```text
@@ -15,20 +15,20 @@ use bowden::{Error, Real};
 /// z' = s - lambda·z
 /// ```
 ///
-/// On the box `|s| <= S`, `|z| <= S/lambda` the worst corner is the one where z drives s
-/// outwards. The box is therefore invariant and attractive for `S = sup |w|/(g·kappa)`. Here
-/// kappa is `k + 1/lambda²` if `g <= lambda²/(1 + lambda²)`, otherwise
-/// `k - 1/lambda² + 2·(1/g - 1)`. Then `|e| <= |s| + lambda·|z| <= 2·S`.
+/// In the box `|s| <= S`, `|z| <= S/lambda`, the worst corner is the corner where z drives s
+/// outwards. The box is therefore invariant and attractive for `S = sup |w|/(g·kappa)`. Here kappa
+/// is `k + 1/lambda²` if `g <= lambda²/(1 + lambda²)`, otherwise `k - 1/lambda² + 2·(1/g - 1)`.
+/// Then `|e| <= |s| + lambda·|z| <= 2·S`.
 ///
 /// Assumptions:
-/// - the law as published in continuous time with e' known;
-/// - the plant (11) with alpha and theta in the given intervals, and `|D| <= Delta`;
-/// - `|y_r|` and `|x_i|` within the given limits;
-/// - the bounds on beta_hat above zero, the bounds on delta_hat not below zero;
-/// - no active limit.
+/// - the adaptive law is as published, in continuous time, and e' is known;
+/// - the plant is (11), alpha and theta are in the given intervals, and `|D| <= Delta`;
+/// - `|y_r|` and `|x_i|` are within the given limits;
+/// - the bounds on beta_hat are positive, and the bounds on delta_hat are not negative;
+/// - no command limit and no slew-rate limit is active.
 ///
-/// The true values need not lie within the bounds, and the estimates may move freely within
-/// them.
+/// The true values need not lie within the bounds on the estimates, and the estimates may move
+/// freely within their bounds.
 ///
 /// ```
 /// use bowden_bound::{PeakContinuous, Plant};
@@ -46,19 +46,19 @@ use bowden::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakContinuous<T> {
-    /// S \[N·m\]: limsup of `|s|`, and of lambda·`|z|`.
+    /// S \[N·m\]: bound on limsup `|s|`, and on limsup `lambda·|z|`.
     pub s: T,
-    /// 2·S \[N·m\]: limsup of `|e|`.
+    /// 2·S \[N·m\]: bound on limsup `|e|`.
     pub bound: T,
 }
 
 impl<T: Real> PeakContinuous<T> {
-    /// The certificate of a law on a plant.
+    /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
-    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds on the estimates are
-    /// too wide or k is too small for a bound.
+    /// [`Error::Inadmissible`] with the violated assumption, or if no bound exists because the
+    /// bounds on the estimates are too wide or k is too small.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
@@ -89,7 +89,7 @@ impl<T: Real> PeakContinuous<T> {
         })
     }
 
-    /// 2·S as a certificate.
+    /// The bound 2·S as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
         Certificate {

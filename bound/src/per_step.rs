@@ -1,4 +1,4 @@
-//! Theorem 1 in sampled time: the Lyapunov function from step to step.
+//! Theorem 1 in sampled time: the change of the Lyapunov function in one step.
 
 use super::truth::{adapting, bounded, range, sum};
 use super::{Certificate, Interval, Kind, PeakSampled, Plant};
@@ -7,26 +7,27 @@ use bowden::{Error, Real};
 
 /// `V⁺ <= (1 - h·rate)·V + h·input` for the first-order form: Theorem 1 in sampled time.
 ///
-/// Here `V = s²/2 + z²/2 + sum c_p·(1 + h·sigma_p)·(p* - p_hat)²/(2·m_p)` over beta (c =
-/// alpha), delta and the thetas (c = 1). The implicit leakage requires the factor (1 +
-/// h·sigma): with it the cross terms cancel as in (28), exactly. A clamp to bounds that contain
-/// the true value cannot raise V. The remaining terms are:
+/// Here `V = s²/2 + z²/2 + sum c_p·(1 + h·sigma_p)·(p* - p_hat)²/(2·m_p)` over beta (c = alpha),
+/// delta and the thetas (c = 1). Because of the implicit leakage, the factor `1 + h·sigma` is
+/// necessary for the cross terms to cancel exactly, as in (28). A clamp to bounds that contain the
+/// true value cannot increase V. The remaining terms are:
 ///
-/// - `rate = min(2·lambda, k·lambda, sigma_p/(1 + h·sigma_p))`: half of k·lambda·s² compensates
+/// - `rate = min(2·lambda, k·lambda, sigma_p/(1 + h·sigma_p))`: half of `k·lambda·s²` compensates
 ///   xi;
-/// - `input = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target +
-///   lambda·S·(Delta - target) + Xi²/(2·k·lambda) + (h/2)·R`,
-///   where target is Delta or the upper bound of delta_hat below Delta. R bounds the second
-///   order in the box of [`PeakSampled`]: `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
+/// - `input = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + lambda·S·(Delta -
+///   target) + Xi²/(2·k·lambda) + (h/2)·R`, where `target` is Delta, or the upper bound of
+///   delta_hat if this is below Delta. In the box of [`PeakSampled`], R bounds the second-order
+///   terms `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
 ///
 /// Further assumptions, in addition to those of [`PeakSampled`]:
-/// - the errors lie in its box;
-/// - every sample takes the step h of the form;
-/// - leakage is constant;
+/// - the errors are in the box of [`PeakSampled`];
+/// - `dt` is the step h of the form at every sample;
+/// - the leakage is constant;
 /// - the bounds on the estimates contain the true values;
 /// - `h·rate <= 1`.
 ///
-/// As in Theorem 1, the inequality bounds all errors, so the bound on the tracking error is loose.
+/// As in Theorem 1, the inequality bounds all errors together, so the bound on the tracking error
+/// is loose.
 ///
 /// ```
 /// use bowden_bound::{PerStep, Plant};
@@ -46,7 +47,7 @@ use bowden::{Error, Real};
 pub struct PerStep<T> {
     /// The box of the errors in which the inequality holds.
     pub within: PeakSampled<T>,
-    /// h \[s\].
+    /// The step h \[s\].
     pub step: T,
     /// Decay rate of V \[1/s\].
     pub rate: T,
@@ -58,7 +59,7 @@ pub struct PerStep<T> {
 }
 
 impl<T: Real> PerStep<T> {
-    /// The inequality of a law on a plant.
+    /// The inequality of an adaptive law with a plant.
     ///
     /// # Errors
     /// The same as [`PeakSampled::try_new`], and [`Error::Inadmissible`] with the violated

@@ -1,4 +1,4 @@
-//! Known ranges of the plant `y = alpha·u - theta'x - D`, (11).
+//! Known ranges of the plant (11), `y = alpha·u - theta'x - D`.
 
 use crate::checked::finite;
 use bowden::{Error, Real};
@@ -46,7 +46,7 @@ impl<T: Real> Interval<T> {
         self.max_distance_from(T::zero())
     }
 
-    /// Largest distance from `point` in the interval.
+    /// Largest distance between `point` and a number of the interval.
     #[must_use]
     pub fn max_distance_from(&self, point: T) -> T {
         let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
@@ -66,9 +66,9 @@ impl<T: Real> Interval<T> {
 pub struct Known<T> {
     /// Interval of theta_i \[N·m/unit of the regressor\].
     pub theta: Interval<T>,
-    /// Largest `|x_i|` \[unit of the regressor\]; only peak certificates read it.
+    /// Largest `|x_i|` \[unit of the regressor\], for peak certificates only.
     pub magnitude: T,
-    /// Largest rate of x_i \[unit/s\]; only sampled certificates read it.
+    /// Largest rate of x_i \[unit/s\], for sampled certificates only.
     pub rate: T,
 }
 
@@ -88,28 +88,28 @@ pub struct Known<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plant<T, const N: usize> {
-    /// Gain alpha = B·N·A \[N·m/command unit\], above zero.
+    /// Gain alpha = B·N·A \[N·m/command unit\], positive.
     pub alpha: Interval<T>,
-    /// Bound Delta of `|D|` \[N·m\]: `kappa_eta + |T0| + |d|`, (12).
+    /// Bound Delta on `|D|` \[N·m\], which is `kappa_eta + |T0| + |d|` from (12).
     pub delta: T,
-    /// Bound on the rate of D \[N·m/s\]; only sampled certificates read it.
+    /// Bound on the rate of D \[N·m/s\], for sampled certificates only.
     ///
-    /// For the hysteresis this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|` with f = rho·max(1,
-    /// 2·sigma). Here f is the steepest slope of eta in tau_i, since
-    /// `tau_i' = y'/(B - kappa_eta·f)` at worst. For the first set of Nguyen et al. (2018) with
-    /// sigma = 1/2, and for the paper's reference, `|y_r'| <= 22.24 N·m/s`, the rate is 45.7 N·m/s
-    /// if y follows y_r.
+    /// For the hysteresis, this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|`. Here
+    /// `f = rho·max(1, 2·sigma)` is the largest slope of eta over tau_i, and
+    /// `tau_i' = y'/(B - kappa_eta·f)` in the worst case. For example, the rate is 45.7 N·m/s for
+    /// the first set of Nguyen et al. (2018) with sigma = 1/2, if y follows the reference of the
+    /// paper (`|y_r'| <= 22.24 N·m/s`).
     pub delta_rate: T,
     /// Coefficients and regressors.
     pub regressors: [Known<T>; N],
-    /// Largest `|y_r|` \[N·m\]; only peak certificates read it.
+    /// Largest `|y_r|` \[N·m\], for peak certificates only.
     pub reference: T,
-    /// Largest `|y_r'|` \[N·m/s\]; only sampled certificates read it.
+    /// Largest `|y_r'|` \[N·m/s\], for sampled certificates only.
     pub reference_rate: T,
 }
 
 impl<T: Real, const N: usize> Plant<T, N> {
-    /// A plant with a known alpha \[N·m/command unit\] and `|D| <= delta` \[N·m\]; all other fields
+    /// A plant with a known alpha \[N·m/command unit\] and `|D| <= delta` \[N·m\]. All other fields
     /// are zero.
     #[must_use]
     pub fn new(alpha: T, delta: T) -> Self {
@@ -123,7 +123,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         }
     }
 
-    /// Refuses numbers that cannot describe a plant.
+    /// Rejects numbers that cannot describe a plant.
     pub(super) fn check(&self) -> Result<(), Error> {
         ordered(&self.alpha, "alpha")?;
         if self.alpha.low <= T::zero() {

@@ -1,4 +1,4 @@
-//! Nominal parameters with tolerances: plants between command and measured output.
+//! Nominal parameters with tolerances of the plant between command and measured output.
 
 use super::plant::ordered;
 use super::span::Span;
@@ -11,10 +11,9 @@ use bowden::Error;
 /// P~(s) = f·alpha·e^(−theta·s)/(1 + f·(s²/wn² + 2·zeta·s/wn)/(1 + c/K·s))
 /// ```
 /// With `f = 1` and `c/K = 0` the plant is the [`NominalPlant`](bowden::control::NominalPlant) with
-/// a delay. A damping c of the joint, parallel to its stiffness K, provides phase lead: a c/K of 3
-/// ms compensates for 3 ms of latency. A rig may be stable only because of this damping. Along the
-/// loop of a hysteresis, the cable's output changes by f times its input, so the motor works
-/// against a stiffness of K/f.
+/// a delay. A damping c of the joint, parallel to its stiffness K, provides phase lead. A c/K of
+/// 3 ms compensates for 3 ms of latency. Along a hysteresis loop, the output of the cable changes
+/// by f times the change of its input, so the motor drives a stiffness of K/f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -22,17 +21,17 @@ use bowden::Error;
 pub struct PlantRange {
     /// alpha \[output unit/command unit\], with the sign of the nominal alpha.
     pub gain: Interval<f64>,
-    /// wn \[rad/s\], above zero.
+    /// wn \[rad/s\], positive.
     pub natural_frequency: Interval<f64>,
-    /// zeta of the drive alone; not below zero.
+    /// zeta of the drive by itself, not negative.
     pub damping_ratio: Interval<f64>,
-    /// c/K of the joint \[s\], not below zero.
+    /// c/K of the joint \[s\], not negative.
     pub joint: Interval<f64>,
-    /// f, above zero. Without hysteresis f is 1. With hysteresis in torque mode, and if kappa_eta
-    /// and sigma are above zero, f ranges from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
+    /// f, positive. Without hysteresis, f is 1. With hysteresis in torque mode and a positive
+    /// kappa_eta, f ranges from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
     pub slope: Interval<f64>,
-    /// theta \[s\], not below zero: samples of delay, half a sample for the zero-order hold, the
-    /// lags of drive and sensor.
+    /// theta \[s\], not negative: the sum of the delay, half a sample for the zero-order hold, and
+    /// the lags of the drive and the sensor.
     pub latency: Interval<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! The RMS certificate: a bound on the mean square from the algebra of Theorem 1.
+//! The RMS certificate: a bound on the mean square error from the algebra of Theorem 1.
 
 use super::truth::{adapting, bounded, literal, range, sum, Adapting};
 use super::{Certificate, Interval, Kind, Plant};
@@ -10,24 +10,24 @@ const NARROWINGS: u32 = 90;
 
 /// Root mean square of the error over a long time.
 ///
-/// Theorem 1 weighs every estimate; the mean of s² needs no weights. From (30), with
+/// Unlike Theorem 1, this bound does not depend on weights of the estimates. From (30), with
 /// `p_hat·p~ <= p*²/4` instead of (31)-(33), `V' <= -k·lambda·s² + phi_a`, where
-/// `phi_a = sum sigma_p·p*²/(4·m_p) + W·epsilon·lambda·Delta`. Also rms(e) <= rms(s), since
-/// `s = e + lambda·z` gives ∫s² >= ∫e² if z starts at zero. So
+/// `phi_a = sum sigma_p·p*²/(4·m_p) + W·epsilon·lambda·Delta`. If z is initially zero,
+/// `s = e + lambda·z` gives ∫s² >= ∫e² and therefore rms(e) <= rms(s). Hence
 /// `rms(e) <= sqrt((phi_a + V(0)/T)/(k·lambda))`.
 ///
-/// delta_hat may have a target below Delta. The difference is `c = Delta - target`, and `rms(s) <=
-/// (c + sqrt(c² + 4·k·(phi_a + V(0)/T)/lambda))/(2·k)`. Any target gives a valid bound; the
-/// smallest bound is used. Leakage to a prior p0 replaces p* by `p* - p0`. A switching leakage
-/// whose bound contains the true value adds nothing.
+/// delta_hat may have a target below Delta. The difference is `c = Delta - target`, and
+/// `rms(s) <= (c + sqrt(c² + 4·k·(phi_a + V(0)/T)/lambda))/(2·k)`. Any target gives a valid bound,
+/// and the smallest bound is used. With leakage to a prior p0, `p* - p0` replaces p*. A switching
+/// leakage whose bound contains the true value adds nothing.
 ///
 /// Assumptions:
-/// - the law as published in continuous time with e' known;
-/// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
-///   every time;
+/// - the adaptive law is as published, in continuous time, and e' is known;
+/// - the plant is (11), alpha and theta are constant and in the given intervals, and `|D| <= Delta`
+///   at every time;
 /// - z(0) = 0;
-/// - bounds on the estimates, if any, that contain the true values;
-/// - no active limit.
+/// - the bounds on the estimates, if any, contain the true values;
+/// - no command limit and no slew-rate limit is active.
 ///
 /// ```
 /// use bowden_bound::{Plant, Rms};
@@ -61,7 +61,7 @@ pub struct Rms<T> {
 }
 
 impl<T: Real> Rms<T> {
-    /// The certificate of a law on a plant.
+    /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
@@ -110,10 +110,10 @@ impl<T: Real> Rms<T> {
         Ok(certificate)
     }
 
-    /// Bound on rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
-    /// \[N·m\].
+    /// Bound on rms(e) \[N·m\] over the first `duration` \[s\], from an initial error
+    /// `start` \[N·m\].
     ///
-    /// V(0) contributes: with beta_hat starting at zero it dominates for minutes.
+    /// This bound includes V(0), which dominates for minutes if beta_hat is initially zero.
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {
         let mut v = self.at_start + start * start * T::from_f64(0.5);

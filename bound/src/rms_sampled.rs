@@ -8,20 +8,20 @@ use bowden::{Error, Real};
 
 /// Root mean square of the error of the first-order form over a long time, in sampled time.
 ///
-/// The derivation is the same as for [`Rms`](super::Rms), but from the step of V that
+/// The derivation is the same as for [`Rms`](super::Rms), but uses the step of V that
 /// [`PerStep`](super::PerStep) bounds. Without the leakage,
 /// `V⁺ <= V - h·k·lambda·s² + h·(lambda·c + Xi)·|s| + h·phi`, where
 ///
-/// - `phi = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + (h/2)·R`, with R the
-///   second order in the box of [`PeakSampled`];
-/// - `c = Delta - target`; any target is valid, and the smallest bound is used.
+/// - `phi = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + (h/2)·R`, where R bounds
+///   the second-order terms in the box of [`PeakSampled`];
+/// - `c = Delta - target`, where any target is valid and the smallest bound is used.
 ///
 /// The mean of `|s|` is at most `rms(s)`, so
-/// `k·lambda·rms(s)² <= (lambda·c + Xi)·rms(s) + phi + V(0)/T`: the best split of `k·lambda·s²`
-/// between the moving and the constant part. From z = 0, `(1 - h·lambda)·sum(e²) <= sum(s²)`
-/// (`theorems/Decrease.v`), so `rms(e) <= rms(s)/sqrt(1 - h·lambda)`.
+/// `k·lambda·rms(s)² <= (lambda·c + Xi)·rms(s) + phi + V(0)/T`. From z = 0,
+/// `(1 - h·lambda)·sum(e²) <= sum(s²)` (`theorems/Decrease.v`), so
+/// `rms(e) <= rms(s)/sqrt(1 - h·lambda)`.
 ///
-/// Assumptions: those of [`PerStep`](super::PerStep), and z(0) = 0.
+/// Assumptions: the same as for [`PerStep`](super::PerStep), and z(0) = 0.
 ///
 /// ```
 /// use bowden_bound::{Plant, RmsSampled};
@@ -62,7 +62,7 @@ pub struct RmsSampled<T> {
 const NARROWINGS: u32 = 90;
 
 impl<T: Real> RmsSampled<T> {
-    /// The certificate of a law on a plant.
+    /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
     /// The same as [`PeakSampled::try_new`], and [`Error::Inadmissible`] with the violated
@@ -127,8 +127,8 @@ impl<T: Real> RmsSampled<T> {
         Ok(found)
     }
 
-    /// Bound on rms(e) over the first `duration` \[s\] \[N·m\], from an initial error `start`
-    /// \[N·m\].
+    /// Bound on rms(e) \[N·m\] over the first `duration` \[s\], from an initial error
+    /// `start` \[N·m\].
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {
         let mut v = self.at_start + start * start * T::from_f64(0.5);

@@ -9,28 +9,28 @@ use bowden::{Error, Real};
 /// The box theorem: peak of the error of the first-order form in sampled time.
 ///
 /// The closed loop is exactly [`LagRecursion`](bowden::control::LagRecursion). Let `W >= |w|`,
-/// `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold for every sample, with estimates anywhere within
-/// their bounds. **If** `h·lambda <= 1`, `h·lambda·g⁺·(k + delta_max/eps) <= 1` and
-/// `k > 1/lambda²`, **then** the box `|s| <= S`, `|z| <= S/lambda` with
-/// `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is invariant and attractive, and
-/// `|e| <= |s| + lambda·|z| <= 2·S`.
+/// `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold at every sample, for any estimates within their bounds.
+/// **If** `h·lambda <= 1`, `h·lambda·g⁺·(k + delta_max/eps) <= 1` and `k > 1/lambda²`, **then** the
+/// box `|s| <= S`, `|z| <= S/lambda` with `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is invariant
+/// and attractive, and `|e| <= |s| + lambda·|z| <= 2·S`.
 ///
-/// *Proof.* By the first condition `z⁺ = (1 - h·lambda)·z + h·s` stays in the box. By the second
+/// *Proof.* By the first condition, `z⁺ = (1 - h·lambda)·z + h·s` stays in the box. By the second
 /// condition, `f(s) = s - h·lambda·g·(k·s + delta_hat·T(s/eps))` does not decrease (the slope of T
-/// is at most one). It is odd, so `|f(s)| <= f(S) <= S - h·lambda·g·k·S`. Then `|s⁺| <= S -
-/// h·lambda·g·k·S + h·g·S/lambda + h·lambda·W + h·Xi <= S`. Outside, at m·S with m > 1, the same
-/// line loses at least `h·lambda·g·(k - 1/lambda²)·(m - 1)·S`. ∎
+/// is at most one). Since f is odd, `|f(s)| <= f(S) <= S - h·lambda·g·k·S`. Then
+/// `|s⁺| <= S - h·lambda·g·k·S + h·g·S/lambda + h·lambda·W + h·Xi <= S`. Outside the box, at m·S
+/// with m > 1, the same calculation gives a decrease of at least
+/// `h·lambda·g·(k - 1/lambda²)·(m - 1)·S`. ∎
 ///
-/// The theorem requires that s uses z of the previous sample; if z is updated first, the recursion
-/// is different. The worst corner is `s = S, z = -S/lambda`, and the bound is tight: the worst
+/// The theorem requires that s uses z of the previous sample. If z is updated first, the recursion
+/// is different. The worst corner is `s = S, z = -S/lambda`. The bound is tight, because the worst
 /// disturbance reaches more than 0.99·S (test `bound`).
 ///
 /// Further assumptions:
 /// - the plant (11) has no dynamics, and y belongs to u of the previous sample;
 /// - alpha and theta are constant and lie in the given intervals;
-/// - D, y_r and x and their changes lie within the given limits;
+/// - D, y_r and x and their rates are within the given limits;
 /// - the next reference is the true one;
-/// - no limit is active.
+/// - no command limit and no slew-rate limit is active.
 ///
 /// The true values need not lie within the bounds on the estimates.
 ///
@@ -63,19 +63,19 @@ pub struct PeakSampled<T> {
     pub g: Interval<T>,
     /// S \[N·m\]: the box is `|s| <= S`, `|z| <= S/lambda`.
     pub s: T,
-    /// 2·S \[N·m\]: `|e|` at every sample.
+    /// 2·S \[N·m\]: bound on `|e|` at every sample.
     pub bound: T,
-    /// Largest `|u|` in the box \[command unit\]; the limits must allow it.
+    /// Largest `|u|` in the box \[command unit\], which the command limits must allow.
     pub command: T,
 }
 
 impl<T: Real> PeakSampled<T> {
-    /// The certificate of a law on a plant.
+    /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
-    /// [`Error::Inadmissible`] with the violated assumption, or if the bounds on the estimates are
-    /// too wide for a bound.
+    /// [`Error::Inadmissible`] with the violated assumption, or if no bound exists because the
+    /// bounds on the estimates are too wide.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
@@ -117,7 +117,7 @@ impl<T: Real> PeakSampled<T> {
         })
     }
 
-    /// 2·S as a certificate.
+    /// The bound 2·S as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
         Certificate {

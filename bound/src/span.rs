@@ -24,7 +24,7 @@ impl Span {
         Self { low: x, high: x }
     }
 
-    /// From one number to another, in either order, widened by the rounding of each.
+    /// From one number to another, in either order, widened by the rounding error of each.
     pub(super) fn outward(a: f64, b: f64) -> Self {
         if a.is_nan() || b.is_nan() {
             return Self::ALL;
@@ -52,7 +52,7 @@ impl Span {
         Self::ALL
     }
 
-    /// The squares, none of them below zero.
+    /// The squares, which are not negative.
     pub(super) fn square(self) -> Self {
         let (a, b) = (self.low * self.low, self.high * self.high);
         let all = Self::outward(a, b);

@@ -5,23 +5,23 @@ use super::{Certificate, Interval, Kind, Plant};
 use bowden::control::{Adaptive, Leakage};
 use bowden::{Error, Real};
 
-/// Theorem 1's phi, theta, delta and (1 + lambda)·delta, (34)-(38).
+/// The constants of Theorem 1, (34)-(38): phi, theta, delta and (1 + lambda)·delta.
 ///
-/// With `V = s²/2 + z²/2 + alpha·beta~²/(2·gamma) + Delta~²/(2·mu) + sum theta~_i²/(2·mu_i)`
-/// (27), the law gives `V' <= -theta·V + phi` (34). Therefore limsup `|s|` and limsup `|z|` are
-/// at most `delta = sqrt(2·phi/theta)`, and limsup `|e| <= (1 + lambda)·delta`. A prior p0
-/// replaces p* by `p* - p0` in phi.
+/// With `V = s²/2 + z²/2 + alpha·beta~²/(2·gamma) + Delta~²/(2·mu) + sum theta~_i²/(2·mu_i)` (27),
+/// the law gives `V' <= -theta·V + phi` (34). Therefore limsup `|s|` and limsup `|z|` are at most
+/// `delta = sqrt(2·phi/theta)`, and limsup `|e| <= (1 + lambda)·delta`. With a prior p0, `p* - p0`
+/// replaces p* in phi.
 ///
 /// Assumptions:
-/// - the law as published in continuous time with e' known;
-/// - the plant (11) with constant alpha, theta in the given intervals and `|D| <= Delta` at
-///   every time;
-/// - constant leakage above zero and a gain above zero in every estimate;
-/// - bounds on the estimates, if any, that contain the true values;
-/// - no active limit.
+/// - the adaptive law is as published, in continuous time, and e' is known;
+/// - the plant is (11), alpha and theta are constant and in the given intervals, and `|D| <= Delta`
+///   at every time;
+/// - every estimate has a positive constant leakage and a positive gain;
+/// - the bounds on the estimates, if any, contain the true values;
+/// - no command limit and no slew-rate limit is active.
 ///
-/// The algebra (27)-(34) is correct, but the bound is vacuous: leakage has by far the slowest rate,
-/// so theta is very small and delta very large.
+/// The algebra of (27)-(34) is correct, but the bound is vacuous. The leakage is by far the slowest
+/// rate, so theta is very small and delta is very large.
 ///
 /// ```
 /// use bowden_bound::{Plant, Theorem1};
@@ -35,18 +35,18 @@ use bowden::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Theorem1<T> {
-    /// phi \[(N·m)²/s\], below (34).
+    /// phi \[(N·m)²/s\], defined after (34).
     pub phi: T,
     /// theta \[1/s\]: the slowest of 2·lambda, 2·k·lambda and the leakages.
     pub theta: T,
-    /// delta = sqrt(2·phi/theta): limsup of `|s|` \[N·m\] and of `|z|` \[N·m·s\].
+    /// delta = sqrt(2·phi/theta): bound on limsup `|s|` \[N·m\] and on limsup `|z|` \[N·m·s\].
     pub delta: T,
-    /// (1 + lambda)·delta \[N·m\]: limsup of `|e|`, (38).
+    /// (1 + lambda)·delta \[N·m\]: bound on limsup `|e|` in (38).
     pub bound: T,
 }
 
 impl<T: Real> Theorem1<T> {
-    /// The constants of a law on a plant.
+    /// The constants of an adaptive law with a plant.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
@@ -99,7 +99,7 @@ impl<T: Real> Theorem1<T> {
         })
     }
 
-    /// (1 + lambda)·delta as a certificate.
+    /// The bound (1 + lambda)·delta as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
         Certificate {

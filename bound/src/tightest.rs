@@ -7,21 +7,22 @@ use bowden::{Error, Real};
 
 /// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
 ///
-/// The proof of [`Theorem1`](super::Theorem1) leaves some constants free. Let
-/// `V = s²/2 + c·z²/2 + ...` with any weight c. Measure delta_hat from any target T up to Delta.
-/// Let theta be any rate below twice the slowest leakage. Then `V' <= -theta·V + phi` with
+/// The proof of [`Theorem1`](super::Theorem1) leaves three constants free: the weight c in
+/// `V = s²/2 + c·z²/2 + ...`, a target T of delta_hat of at most Delta, and a rate theta below
+/// twice the slowest leakage. Then `V' <= -theta·V + phi`, where phi is the sum of
 ///
-/// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, where that of
-///   delta has T instead of p*;
-/// - `W·epsilon·lambda·T` from the smooth sign; and
+/// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, with T instead of
+///   p* for delta;
+/// - `W·epsilon·lambda·T` from the smoothed sign function;
 /// - `lambda²·(Delta - T)²/(4·a)` from the disturbance beyond the target, where
-///   `a = k·lambda - theta/2 - (c - 1)²/(4·c·(lambda - theta/2))` is above zero;
+///   `a = k·lambda - theta/2 - (c - 1)²/(4·c·(lambda - theta/2))` is positive.
 ///
-/// and `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =
-/// Delta and theta the slowest leakage this is (34)-(38), up to `(1 + lambda)`. For Table 2 the
-/// largest term is the leakage of beta_hat, which no choice reduces.
+/// Therefore `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =
+/// Delta and theta equal to the slowest leakage, this is (34)-(38) except for the factor
+/// `(1 + lambda)`. For Table 2, the largest term is the leakage of beta_hat, which does not depend
+/// on this choice.
 ///
-/// Assumptions: those of [`Theorem1`](super::Theorem1).
+/// Assumptions: the same as for [`Theorem1`](super::Theorem1).
 ///
 /// ```
 /// use bowden_bound::{Plant, Tightest};
@@ -34,7 +35,7 @@ use bowden::{Error, Real};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tightest<T> {
-    /// limsup of `|e|` \[N·m\].
+    /// Bound on limsup `|e|` \[N·m\].
     pub bound: T,
     /// theta \[1/s\].
     pub theta: T,
@@ -70,7 +71,7 @@ impl<T: Real> Tightest<T> {
         "disturbance",
     ];
 
-    /// The best bound of a law on a plant.
+    /// The best bound of an adaptive law with a plant.
     ///
     /// # Errors
     /// The same as [`Theorem1::try_new`](super::Theorem1::try_new).
@@ -98,7 +99,7 @@ impl<T: Real> Tightest<T> {
         Ok(best)
     }
 
-    /// The largest term of phi, and its share of phi.
+    /// The name of the largest term of phi, and its fraction of phi.
     #[must_use]
     pub fn dominant_term(&self) -> (&'static str, T) {
         let mut sum = T::zero();

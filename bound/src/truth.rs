@@ -128,7 +128,7 @@ pub(super) fn sum<T: Real, const N: usize>(
 /// Minimum and maximum of `g = alpha·beta_hat`.
 ///
 /// # Errors
-/// [`Error::Inadmissible`] unless g stays above zero and delta_hat not below.
+/// [`Error::Inadmissible`] if g may not be positive, or if delta_hat may be negative.
 pub(super) fn loop_gain<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,

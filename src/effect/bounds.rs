@@ -1,9 +1,10 @@
-//! Finite results for any input: regressors saturate if the arithmetic overflows.
+//! Saturation: a regressor stays finite if the arithmetic overflows.
 
 use crate::signal::two_sum;
 use crate::Real;
 
-/// The nearest finite value: an infinity becomes the largest value of its sign, NaN becomes 0.
+/// The nearest finite value. An infinity becomes the largest float of the same sign, and NaN
+/// becomes 0.
 #[cfg_attr(kani, kani::ensures(|result| result.is_finite()))]
 #[inline]
 pub(crate) fn saturate<T: Real>(value: T) -> T {
@@ -18,11 +19,11 @@ pub(crate) fn saturate<T: Real>(value: T) -> T {
     }
 }
 
-/// `[sum, carry]` after one more step; the carry is the rounding error of the sum
-/// ([`Compensated`](crate::signal::Compensated)). Finite for finite numbers.
+/// `[sum, carry]` after one more step, where `carry` is the rounding error of the sum
+/// ([`Compensated`](crate::signal::Compensated)). The result is finite for finite numbers.
 ///
-/// A plain sum in `f32` stops growing once its increments fall below half an ulp: after a few
-/// hours of operation, or on a slow approach to a limit.
+/// A plain `f32` sum stops changing once an increment is less than half an ulp of the sum, for
+/// example after a few hours of operation or on a slow approach to a limit.
 #[inline]
 pub(super) fn add<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
     let (total, owed) = two_sum(sum, saturate(step + carry));

@@ -1,4 +1,4 @@
-//! The declaration of an effect: its type, its properties and its regressor.
+//! The macro that declares an effect: its type, its properties and its regressor.
 
 /// Declares an effect:
 ///
@@ -11,9 +11,10 @@
 ///     further functions of the trait
 /// }
 /// ```
-/// `stage Input` before `reads` makes it an input stage, and `memory` is left out where there is
-/// none. In `value`, `it` is the effect. Generates the type, `try_new` for shape parameters, a
-/// `Deserialize` through `try_new`, and [`Regressor`](super::Regressor).
+/// `stage Input` before `reads` makes the effect an input stage. Omit `memory` for an effect
+/// without memory. In `value`, `it` is the effect. The macro generates the type, `try_new` for the
+/// shape parameters, a `Deserialize` that calls `try_new`, and the implementation of
+/// [`Regressor`](super::Regressor).
 macro_rules! effect {
     ($(#[$doc:meta])* $effect:ident; $($rest:tt)+) => {
         $(#[$doc])*
@@ -41,11 +42,11 @@ macro_rules! effect {
         impl<T> $crate::effect::info::sealed::Sealed for $effect<T> {}
 
         impl<T: $crate::Real> $effect<T> {
-            /// Checks each shape parameter, once.
+            /// The effect with these shape parameters.
             ///
             /// # Errors
-            /// [`NonFinite`](crate::Error::NonFinite) or
-            /// [`OutOfRange`](crate::Error::OutOfRange) with the name of the shape parameter.
+            /// [`NonFinite`](crate::Error::NonFinite) or [`OutOfRange`](crate::Error::OutOfRange)
+            /// with the name of the invalid shape parameter.
             pub fn try_new($($field: T),+) -> Result<Self, $crate::Error> {
                 Ok(Self {
                     $($field: $crate::effect::Range::$range.check($field, stringify!($field))?),+

@@ -1,4 +1,4 @@
-//! Friction: regressors of the velocity, some times the load or the position.
+//! Friction, drag and asymmetry.
 
 use super::bounds::saturate;
 use super::declare::effect;
@@ -6,7 +6,7 @@ use super::{Dimension, Inputs};
 use crate::Real;
 
 effect! {
-    /// Viscous friction: odd in the velocity, and linear.
+    /// Viscous friction, proportional to the velocity.
     ///
     /// Formula: `v`.
     ///
@@ -19,9 +19,9 @@ effect! {
 }
 
 effect! {
-    /// Drag: odd in the velocity, and growing faster than linearly.
+    /// Quadratic drag, as in turbulent flow.
     ///
-    /// Formulas: `v·|v|` (turbulent flow), `v³` (the next odd power).
+    /// Formula: `v·|v|`.
     ///
     /// Source: K. Worden, G. R. Tomlinson, *Nonlinearity in Structural Dynamics*,
     /// 2001, chapter 2.
@@ -32,9 +32,9 @@ effect! {
 }
 
 effect! {
-    /// Cubic drag, the next odd power.
+    /// Cubic drag.
     ///
-    /// Formula: `v³`; source: [`DragQuadratic`](super::DragQuadratic).
+    /// Formula: `v³`. Source: see [`DragQuadratic`](super::DragQuadratic).
     DragCubic;
     "drag-cubic" in "drag": "v³", Dimension { channel: 3, time: -3, ..Dimension::ONE },
         Odd Odd, reads Velocity;
@@ -42,24 +42,24 @@ effect! {
 }
 
 effect! {
-    /// Drag that grows with a power of the velocity.
+    /// Drag proportional to a power of the speed.
     ///
-    /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless,
-    /// and the gain is the force at 1 channel unit/s, in the output's unit. The same record gives a
-    /// different gain in mm than in m, but the same exponent. For `0 < a < 1` the force rises
-    /// steeply from standstill and then flattens. This range lies between Coulomb friction (the
-    /// limit a → 0) and [`Viscous`](super::Viscous) (a = 1). The function is continuous at v = 0,
-    /// where its slope is infinite.
+    /// Formula: `sgn(v)·|v/v_1|^a` with `v_1` = 1 channel unit/s. The regressor is dimensionless.
+    /// The gain is the output at 1 channel unit/s, in the output unit. Another channel unit changes
+    /// the gain but not the exponent.
     ///
-    /// Oils with additives, greases, and (past yield) the fluids of magnetorheological dampers become
-    /// thinner as the shear rate rises. The constructor accepts any a > 0. With a above 1 the fluid
-    /// thickens; the formulas of [`DragQuadratic`](super::DragQuadratic) are the cases a = 2 and a = 3.
+    /// For `0 < a < 1` the regressor is continuous, has an infinite slope at v = 0, and then
+    /// flattens. It lies between Coulomb friction (the limit a → 0) and [`Viscous`](super::Viscous)
+    /// (a = 1).
+    ///
+    /// An exponent below 1 describes shear-thinning fluids: greases, oils with additives and, past
+    /// yield, magnetorheological fluids. An exponent above 1 describes shear-thickening fluids.
     ///
     /// Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
-    /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers, `F = C·|v|^a·sgn(v)`: N. Makris,
-    /// M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers", *Journal of
-    /// Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper development and
-    /// future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
+    /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers with `F = C·|v|^a·sgn(v)`, N.
+    /// Makris, M. C. Constantinou, "Fractional-derivative Maxwell model for viscous dampers",
+    /// *Journal of Structural Engineering* 117(9), 1991, and D. Lee, D. P. Taylor, "Viscous damper
+    /// development and future trends", *The Structural Design of Tall Buildings* 10(5), 2001.
     ///
     /// ```
     /// use bowden::{effect::PowerLaw, Error};
@@ -85,8 +85,8 @@ effect! {
 effect! {
     /// Coulomb friction, smoothed over the velocity `v_e`.
     ///
-    /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter. With a fixed width that is too
-    /// small, a spurious Stribeck effect would compensate for the error.
+    /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter, because a fixed width that is
+    /// too small would produce a spurious Stribeck effect in a fit.
     ///
     /// Source: S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding
     /// dry, boundary and mixed lubricated contacts", *Tribology International* 40(4),
@@ -98,24 +98,25 @@ effect! {
     /// assert_eq!(Coulomb::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     Coulomb {
-        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
     "coulomb" in "coulomb": "tanh(v/v_e)", Dimension::ONE, Odd Odd, reads Velocity;
     value(it, _, at) = sign(at.motion.velocity, it.v_e);
 }
 
-/// sgn(v), smoothed: `tanh(v/v_e)`. All dry friction of the catalogue uses this function.
+/// Smoothed sign function `tanh(v/v_e)`, used by the dry-friction effects.
 #[inline]
 fn sign<T: Real>(v: T, v_e: T) -> T {
     (v / v_e).short_tanh()
 }
 
 effect! {
-    /// The excess friction at low speed.
+    /// Stribeck effect: the additional friction at low speed.
     ///
     /// Formula: `tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)`, with a = 2 for the usual bell curve and a = 1
-    /// for the exponential. The friction at high speed is Coulomb friction.
+    /// for the exponential. A separate [`Coulomb`](super::Coulomb) term describes the friction at
+    /// high speed.
     ///
     /// Source: R. Stribeck, *Zeitschrift des VDI* 46, 1902; the exponential form is
     /// L. C. Bo, D. Pavelescu, "The friction-speed relation and its influence on the
@@ -141,7 +142,7 @@ effect! {
 }
 
 effect! {
-    /// Dry friction proportional to the load.
+    /// Dry friction proportional to the magnitude of the load.
     ///
     /// Formula: `|load|·tanh(v/v_e)`.
     ///
@@ -154,7 +155,7 @@ effect! {
     /// assert_eq!(LoadFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     LoadFriction {
-        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
     "load-friction" in "load-friction": "|load|·tanh(v/v_e)", Dimension::LOAD,
@@ -163,14 +164,14 @@ effect! {
 }
 
 effect! {
-    /// Friction proportional to the tension, exponential in the wrap angle.
+    /// Capstan friction, proportional to the tension and exponential in the wrap angle.
     ///
-    /// Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle from its origin.
-    /// With a gain of mu this is the Euler-Eytelwein law: friction adds the tension
-    /// `load·(exp(mu·x) − 1)` along the wrap. As mu tends to zero, the regressor becomes
-    /// `load·x·tanh(v/v_e)`. A wrap x_0 at the origin adds load friction,
-    /// `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and changes the gain to `mu·exp(mu·x_0)`. The wrap
-    /// grows with x, so mu is positive.
+    /// Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle relative to the
+    /// origin of the term. A gain of mu gives the Euler-Eytelwein law: along the wrap, friction
+    /// adds the tension `load·(exp(mu·x) − 1)`. As mu tends to zero, the regressor tends to
+    /// `load·x·tanh(v/v_e)`. If the wrap angle at the origin is x_0, the friction also contains the
+    /// load friction `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and the gain is `mu·exp(mu·x_0)`. The
+    /// position x must increase with the wrap angle, because mu is positive.
     ///
     /// Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
     /// T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
@@ -183,7 +184,7 @@ effect! {
     /// assert_eq!(Capstan::try_new(0.5, 0.0), Err(Error::OutOfRange("mu")));
     /// ```
     Capstan {
-        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
         /// Friction coefficient of the wrap \[1/channel unit\].
         mu: Positive, Dimension { channel: -1, ..Dimension::ONE };
@@ -193,8 +194,8 @@ effect! {
     value(it, _, at) = at.load * sign(at.motion.velocity, it.v_e) * growth(at.motion.position, it.mu);
 }
 
-/// `(exp(mu·x) − 1)/mu`, or x itself if the two differ by less than rounding: there the product
-/// may be subnormal or 0 and the quotient arbitrary.
+/// `(exp(mu·x) − 1)/mu`. If `|mu·x|` is below the machine epsilon the result is x, because the
+/// product may be subnormal or zero.
 #[inline]
 fn growth<T: Real>(x: T, mu: T) -> T {
     let exponent = mu * x;
@@ -206,10 +207,11 @@ fn growth<T: Real>(x: T, mu: T) -> T {
 }
 
 effect! {
-    /// Load friction while the load drives the motion.
+    /// Load-dependent friction while the motion is in the direction of the load (`load·v > 0`).
     ///
-    /// Formula: `|load|·tanh(v/v_e)` if `load·v > 0` (drive), or if `load·v < 0` (back-drive),
-    /// otherwise 0. The two sum to `load-friction`.
+    /// Formula: `|load|·tanh(v/v_e)` if `load·v > 0`, otherwise 0. This effect and
+    /// [`BackDriveFriction`](super::BackDriveFriction) add up to
+    /// [`LoadFriction`](super::LoadFriction).
     ///
     /// Source: A. Wang, S. Kim, "Directional efficiency in geared transmissions:
     /// characterization of backdrivability towards improved proprioceptive control",
@@ -221,7 +223,7 @@ effect! {
     /// assert_eq!(DriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     DriveFriction {
-        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
     "drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v > 0", Dimension::LOAD,
@@ -236,9 +238,10 @@ effect! {
 }
 
 effect! {
-    /// Load friction while the motion opposes the load.
+    /// Load-dependent friction while the motion opposes the load (`load·v < 0`).
     ///
-    /// Formula: `|load|·tanh(v/v_e) where load·v < 0`; source: [`DriveFriction`](super::DriveFriction).
+    /// Formula: `|load|·tanh(v/v_e)` if `load·v < 0`, otherwise 0. Source: see
+    /// [`DriveFriction`](super::DriveFriction).
     ///
     /// ```
     /// use bowden::{effect::BackDriveFriction, Error};
@@ -246,7 +249,7 @@ effect! {
     /// assert_eq!(BackDriveFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     BackDriveFriction {
-        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
     "back-drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v < 0", Dimension::LOAD,
@@ -260,7 +263,7 @@ effect! {
     };
 }
 
-/// The sign of load·v, computed without the product, which could underflow.
+/// The sign of `load·v`, computed without the product, which could underflow.
 fn sense<T: Real>(at: &Inputs<T>) -> i8 {
     let (load, v) = (at.load, at.motion.velocity);
     if load == T::zero() || v == T::zero() {
@@ -275,7 +278,7 @@ fn sense<T: Real>(at: &Inputs<T>) -> i8 {
 effect! {
     /// Dry friction proportional to the position.
     ///
-    /// Formulas: `x·tanh(v/v_e)` for dry friction, `eta·x` for hysteresis.
+    /// Formula: `x·tanh(v/v_e)`.
     ///
     /// Source: B. Armstrong-Hélouvry, *Control of Machines with Friction*, 1991,
     /// chapter 4 (position-dependent friction).
@@ -286,7 +289,7 @@ effect! {
     /// assert_eq!(PositionFriction::try_new(0.0), Err(Error::OutOfRange("v_e")));
     /// ```
     PositionFriction {
-        /// Velocity at which friction reaches 76 % \[channel unit/s\].
+        /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
     "position-friction" in "position-friction": "x·tanh(v/v_e)", Dimension::POSITION,
@@ -297,7 +300,7 @@ effect! {
 effect! {
     /// Hysteresis proportional to the position.
     ///
-    /// Formula: `eta·x`; source: [`PositionFriction`](super::PositionFriction).
+    /// Formula: `eta·x`. Source: see [`PositionFriction`](super::PositionFriction).
     PositionHysteresis;
     "position-hysteresis" in "position-friction": "eta·x", Dimension::POSITION,
         Even Even, reads Eta Position;
@@ -305,11 +308,10 @@ effect! {
 }
 
 effect! {
-    /// Asymmetry: the difference between the two directions.
+    /// Viscous friction that differs between the two directions of motion.
     ///
-    /// Formulas: `|v|` and `v²`, `|eta|` and `eta²`. All four are even in their argument, while
-    /// friction is odd. Together with `viscous` and `drag`, the first two give one coefficient for
-    /// each sign of v. The last two give a loop that is higher on one side.
+    /// Formula: `|v|`. Together with [`Viscous`](super::Viscous), this effect gives a separate
+    /// coefficient for each direction.
     ///
     /// Source: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of
     /// EMPS", *Workshop on Nonlinear System Identification Benchmarks*, 2019; for the
@@ -321,9 +323,9 @@ effect! {
 }
 
 effect! {
-    /// Quadratic asymmetry in the velocity.
+    /// Quadratic drag that differs between the two directions of motion.
     ///
-    /// Formula: `v²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    /// Formula: `v²`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryDrag;
     "asymmetry-drag" in "asymmetry": "v²", Dimension { channel: 2, time: -2, ..Dimension::ONE },
         Even Even, reads Velocity;
@@ -331,9 +333,9 @@ effect! {
 }
 
 effect! {
-    /// Asymmetry of the hysteresis loop.
+    /// Asymmetry of the hysteresis loop, which is then higher on one side.
     ///
-    /// Formula: `|eta|`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    /// Formula: `|eta|`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEta;
     "asymmetry-eta" in "asymmetry": "|eta|", Dimension::ONE, Even Even, reads Eta;
     value(_, _, at) = at.eta.abs();
@@ -342,7 +344,7 @@ effect! {
 effect! {
     /// Quadratic asymmetry of the hysteresis loop.
     ///
-    /// Formula: `eta²`; source: [`AsymmetryViscous`](super::AsymmetryViscous).
+    /// Formula: `eta²`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEtaSquared;
     "asymmetry-eta-squared" in "asymmetry": "eta²", Dimension::ONE, Even Even, reads Eta;
     value(_, _, at) = at.eta * at.eta;

@@ -1,13 +1,13 @@
-//! Properties of an effect: name, unit, symmetries, inputs.
+//! Properties of an effect, such as its name, unit, symmetries and inputs.
 
 use super::bounds::saturate;
 use super::{EffectState, Inputs};
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// A unit, as exponents of the record's units.
+/// A unit as exponents of the units of the record.
 ///
-/// The coefficient of an effect has the unit of the output divided by this unit.
+/// The gain of a term has the output unit divided by the unit of its regressor.
 ///
 /// ```
 /// use bowden::effect::{Dimension, Effect, Viscous};
@@ -25,8 +25,8 @@ pub struct Dimension {
     pub time: i8,
     /// Exponent of the unit of the output.
     pub output: i8,
-    /// Exponent of the unit of the transmission's input, if the effect reads that input for any
-    /// channel (the shape parameter of `degradation` only).
+    /// Exponent of the unit of the transmission's input. It is nonzero only for the shape parameter
+    /// of `degradation`.
     pub input: i8,
 }
 
@@ -55,7 +55,7 @@ impl Dimension {
     }
 }
 
-/// How a regressor responds to a change of sign.
+/// How a regressor responds to a change of the sign of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Parity {
@@ -63,11 +63,11 @@ pub enum Parity {
     Even,
     /// The regressor changes its sign.
     Odd,
-    /// Neither of the two.
+    /// The regressor is neither even nor odd.
     Neither,
 }
 
-/// The symmetries that distinguish effects.
+/// Symmetries of a regressor.
 ///
 /// ```
 /// use bowden::effect::{AsymmetryViscous, Effect, Parity};
@@ -77,11 +77,11 @@ pub enum Parity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Symmetry {
-    /// Under (x, v) → (−x, −v): all signed signals (motion, input, load, eta and output) change
-    /// sign along the whole path. Times do not change sign.
+    /// Parity if all signed signals (motion, input, load, eta and output) change sign along the
+    /// whole path. Times keep their sign.
     pub mirror: Parity,
-    /// Under v → −v alone, at one instant: x, a, load and eta stay the same. An effect with memory
-    /// returns [`Parity::Neither`]: its path has no such mirror image.
+    /// Parity if only v changes sign, at one instant. For an effect with memory this is
+    /// [`Parity::Neither`].
     pub reversal: Parity,
 }
 
@@ -94,11 +94,11 @@ pub enum Quantity {
     Dt,
     /// Seconds since the start.
     Time,
-    /// x of the channel.
+    /// Position x of the channel.
     Position,
-    /// v of the channel.
+    /// Velocity v of the channel.
     Velocity,
-    /// a of the channel.
+    /// Acceleration a of the channel.
     Acceleration,
     /// The transmission's input.
     Input,
@@ -106,7 +106,7 @@ pub enum Quantity {
     Load,
     /// The hysteresis state.
     Eta,
-    /// The output before this effect.
+    /// The sum of all terms before this effect.
     Output,
 }
 
@@ -116,7 +116,7 @@ pub enum Quantity {
 pub enum Range {
     /// Any finite number.
     Finite,
-    /// Finite and above zero; a fit should vary its logarithm.
+    /// Any positive finite number. A fit should vary the logarithm of the parameter.
     Positive,
 }
 
@@ -134,11 +134,11 @@ impl Range {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ShapeInfo {
-    /// Its name in the formula.
+    /// Name of the parameter in the formula.
     pub name: &'static str,
-    /// Its range.
+    /// Range of the parameter.
     pub range: Range,
-    /// Its unit.
+    /// Unit of the parameter.
     pub dimension: Dimension,
 }
 
@@ -146,26 +146,27 @@ pub struct ShapeInfo {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Info {
-    /// The effect's own name.
+    /// Name of the effect.
     pub name: &'static str,
-    /// The family that the effect belongs to, such as "drag".
+    /// Family of the effect, such as "drag".
     pub family: &'static str,
-    /// The regressor as a formula.
+    /// Formula of the regressor.
     pub formula: &'static str,
-    /// The regressor's unit.
+    /// Unit of the regressor.
     pub dimension: Dimension,
-    /// The regressor's symmetries.
+    /// Symmetries of the regressor.
     pub parity: Symmetry,
-    /// The quantities that the effect reads. If one of them is not finite, the regressor returns 0.
+    /// The quantities that the effect reads. If one of these quantities is not finite, the
+    /// regressor is 0.
     pub reads: &'static [Quantity],
-    /// Whether the effect has a memory of earlier samples.
+    /// Whether the effect depends on earlier samples.
     pub memory: bool,
     /// The shape parameters, in order.
     pub shapes: &'static [ShapeInfo],
     pub(crate) stage: Stage,
 }
 
-/// Position of an effect in a model; not part of the interface.
+/// Position of an effect in a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stage {
@@ -173,12 +174,12 @@ pub enum Stage {
     Input,
     /// Adds to the output.
     Sum,
-    /// Reads the output of all terms before it, and adds to this output.
+    /// Reads the sum of all terms before it, and adds to this sum.
     Output,
 }
 
 impl Stage {
-    /// The position of an effect with these inputs, input stages excluded.
+    /// The position of an effect that reads these quantities and is not an input stage.
     pub(super) const fn of(reads: &[Quantity]) -> Self {
         let mut rest = reads;
         while let [first, others @ ..] = rest {
@@ -195,12 +196,12 @@ impl Stage {
 pub(super) const COUNT: Error =
     Error::Inadmissible("there must be one value for each shape of the effect");
 
-/// One effect as a separate type: its properties and its regressor.
+/// A type that represents one effect.
 ///
-/// A [`FixedModel`](crate::model::FixedModel) uses this trait; an [`Effect`](super::Effect) can
-/// hold any effect. Only the effects of this crate implement the trait.
+/// A [`FixedModel`](crate::model::FixedModel) uses this trait. Only the effects of this crate
+/// implement it.
 pub trait Regressor<T>: sealed::Sealed + Sized {
-    /// Properties of the effect, without its shape parameters.
+    /// Properties of the effect that do not depend on its shape parameters.
     const INFO: &'static Info;
 
     #[doc(hidden)]
@@ -209,13 +210,13 @@ pub trait Regressor<T>: sealed::Sealed + Sized {
     #[doc(hidden)]
     fn try_from_shapes(values: &[T]) -> Result<Self, Error>;
 
-    /// The regressor, if all its inputs are finite. It may overflow to an infinity, and may be NaN
-    /// if this means zero; the memory must stay finite.
+    /// The regressor for finite inputs. The result may be infinite (overflow), or NaN, which means
+    /// zero. The memory must stay finite.
     #[doc(hidden)]
     fn value(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T;
 
-    /// The part of [`value`](Self::value) that depends on `dt` alone; it is computed once per
-    /// record.
+    /// The part of [`value`](Self::value) that depends only on `dt`. It is reused while `dt` is
+    /// constant.
     #[doc(hidden)]
     #[inline]
     fn share(&self, _dt: T) -> T
@@ -225,16 +226,16 @@ pub trait Regressor<T>: sealed::Sealed + Sized {
         T::zero()
     }
 
-    /// [`value`](Self::value), if [`share`](Self::share) of the sample's `dt` is known.
+    /// The same as [`value`](Self::value), with a known [`share`](Self::share) of the sample's
+    /// `dt`.
     #[doc(hidden)]
     #[inline]
     fn value_knowing(&self, state: &mut EffectState<T>, at: &Inputs<T>, _share: T) -> T {
         self.value(state, at)
     }
 
-    /// The contribution of a term with this gain, if all its inputs are finite: gain times
-    /// regressor, except for an output stage that is not linear in its gain. The contribution may
-    /// overflow.
+    /// The contribution of a term with this gain, for finite inputs. It is gain times regressor,
+    /// except for an output stage that is not linear in its gain. It may overflow.
     #[doc(hidden)]
     #[inline]
     fn contribution(&self, gain: T, state: &mut EffectState<T>, at: &Inputs<T>) -> T

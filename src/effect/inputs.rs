@@ -32,15 +32,15 @@ crate::data! {
         pub dt: T,
         /// Time since the start of the record \[s\].
         pub time: T,
-        /// The channel that the effect reads.
+        /// Motion of the channel that the effect reads.
         pub motion: Motion<T>,
-        /// The transmission's input, x or `tau_i`, with its rates.
+        /// The transmission's input (x or `tau_i`), with its velocity and acceleration.
         pub input: Motion<T>,
         /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
         pub load: T,
-        /// The hysteresis state; 0 without hysteresis.
+        /// The hysteresis state eta; 0 without a transmission.
         pub eta: T,
-        /// The sum of all terms before this effect; only output stages read it.
+        /// The sum of all terms before this effect, which only output stages read.
         pub output: T,
     }
 }
@@ -63,7 +63,7 @@ impl<T: Real> Inputs<T> {
         }
     }
 
-    /// Whether all `quantities` are finite and, if `dt` is among them, `dt` is not negative.
+    /// Whether all `quantities` are finite, and `dt`, if it is one of them, is not negative.
     #[inline]
     #[must_use]
     pub fn is_usable(&self, quantities: &[Quantity]) -> bool {
@@ -77,8 +77,7 @@ impl<T: Real> Inputs<T> {
 crate::checked::stored! {
     /// The internal state of one effect, empty before the first sample.
     ///
-    /// The meaning of the numbers depends on the effect, so a state belongs to one effect.
-    /// `EffectState::default()` is a new state.
+    /// Use a state with only one effect, because the meaning of its numbers depends on the effect.
     #[derive(Default)]
     pub struct EffectState<T> {
         pub(super) memory: Option<[T; 4]>,

@@ -1,4 +1,4 @@
-//! Effects with a memory of earlier samples: play, presliding, creep, degradation, lag and delay.
+//! Effects with memory: backlash, presliding, degradation, creep, hardening, lag and delay.
 
 use super::bounds::{add, saturate};
 use super::declare::effect;
@@ -7,15 +7,13 @@ use crate::signal::clamp;
 use crate::Real;
 
 effect! {
-    /// The play operator of half-width `r` minus its input; it starts in mid-gap.
+    /// Backlash: the play operator with half-width `r`, minus its input.
     ///
-    /// Formulas: `play(x; r) − x`, the effect of a gap of half-width r, and `x − clamp(x, −r, r)`,
-    /// a spring with a gap around zero. After each reversal the play output is constant over the
-    /// distance 2·r. In series, the same play acts on the transmission's input: the hysteresis and
-    /// the gain then act on `play(x; r)` instead of x.
+    /// Formula: `play(x; r) − x`. The play starts in mid-gap. After each reversal, its output is
+    /// constant over the distance 2·r.
     ///
-    /// No record can distinguish this effect from [`Presliding`](super::Presliding), because
-    /// `play(x; r) − x` is `−stop(x; r)`, which is `Presliding` times −r.
+    /// This effect equals [`Presliding`](super::Presliding) times −r, because `play(x; r) − x` is
+    /// `−stop(x; r)`. No record can distinguish the two.
     ///
     /// Source: M. Nordin, P.-O. Gutman, "Controlling mechanical systems with backlash
     /// — a survey", *Automatica* 38(10), 2002; for the play, M. A. Krasnosel'skii,
@@ -42,14 +40,14 @@ effect! {
 }
 
 effect! {
-    /// Play in series: slack between the measured input and the transmission.
+    /// Backlash between the measured input and the transmission.
     ///
     /// This effect is an input stage (see
     /// [`Effect::is_input_stage`](super::Effect::is_input_stage)). With a gain of 1, the
-    /// transmission receives `play(x; r)`; with a lower gain, part of the gap is bridged. The play
-    /// starts in mid-gap.
+    /// transmission receives `play(x; r)` instead of x. A gain below 1 describes a gap that is
+    /// partly bridged. The play starts in mid-gap.
     ///
-    /// Formula: `play(x; r) − x, added to the input`; source: [`Backlash`](super::Backlash).
+    /// Formula: `play(x; r) − x, added to the input`. Source: see [`Backlash`](super::Backlash).
     ///
     /// ```
     /// use bowden::{effect::PlayInSeries, Error};
@@ -68,7 +66,7 @@ effect! {
 effect! {
     /// A spring with a gap around zero.
     ///
-    /// Formula: `x − clamp(x, −r, r)`; source: [`Backlash`](super::Backlash).
+    /// Formula: `x − clamp(x, −r, r)`. Source: see [`Backlash`](super::Backlash).
     ///
     /// ```
     /// use bowden::{effect::DeadZone, Error};
@@ -84,22 +82,16 @@ effect! {
 }
 
 effect! {
-    /// The stop operator with half-width `r` and unit height.
+    /// Presliding friction: the stop operator with half-width `r` and unit height.
     ///
-    /// Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, Prandtl's stop (elastic, perfectly plastic).
-    /// Each cycle wider than 2·r dissipates energy. The loop's area is `4·(X − r)` for a cycle of
-    /// amplitude X > r, and 0 for a smaller cycle. The state starts at s = 0. With the opposite sign
-    /// this is [`Backlash`](super::Backlash) with the same r, except for a factor of r.
+    /// Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, the elastic, perfectly plastic stop of
+    /// Prandtl. The state starts at s = 0. The area of the loop is `4·(X − r)` for a cycle of
+    /// amplitude X > r, and 0 for a smaller cycle. This effect equals [`Backlash`](super::Backlash)
+    /// with the same r, divided by −r.
     ///
-    /// The second formula, `dahl(x; r)`, bends gradually instead of slipping:
-    /// `dz/dx = (1 − z·sgn dx)/r`, Dahl's equation with exponent 1. If x is monotone between two
-    /// samples, the step `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. Every cycle
-    /// dissipates energy: the loop's area is `4·(X − r·tanh(X/r))`, and z swings between
-    /// ±tanh(X/r). The state starts at `z = 0`.
-    ///
-    /// Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; stops in
-    /// parallel, F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip
-    /// model", *IEEE Transactions on Automatic Control* 50(11), 2005.
+    /// Source: L. Prandtl, 1928; P. R. Dahl, *A Solid Friction Model*, 1968; for stops in parallel,
+    /// F. Al-Bender, V. Lampaert, J. Swevers, "The generalized Maxwell-slip model", *IEEE
+    /// Transactions on Automatic Control* 50(11), 2005.
     ///
     /// ```
     /// use bowden::{effect::Presliding, Error};
@@ -107,7 +99,7 @@ effect! {
     /// assert_eq!(Presliding::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     Presliding {
-        /// Distance at which the spring slips \[channel unit\].
+        /// Displacement at which the spring slips \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
     "presliding" in "presliding": "stop(x; r)/r", Dimension::ONE,
@@ -122,9 +114,16 @@ effect! {
 }
 
 effect! {
-    /// Dahl's curve with length `r` and unit height.
+    /// Presliding friction with a gradual transition to slip: the Dahl model with length `r` and
+    /// unit height.
     ///
-    /// Formula: `dahl(x; r)`; source: [`Presliding`](super::Presliding).
+    /// Formula: `dahl(x; r)`, the state z of Dahl's equation with exponent 1,
+    /// `dz/dx = (1 − z·sgn dx)/r`. The state starts at `z = 0`. If x is monotonic between two
+    /// samples, the step `z ← sgn dx + (z − sgn dx)·exp(−|dx|/r)` is exact for any dx. In a cycle
+    /// of amplitude X, z moves between ±tanh(X/r), and the area of the loop is
+    /// `4·(X − r·tanh(X/r))`.
+    ///
+    /// Source: see [`Presliding`](super::Presliding).
     ///
     /// ```
     /// use bowden::{effect::PreslidingDahl, Error};
@@ -132,7 +131,7 @@ effect! {
     /// assert_eq!(PreslidingDahl::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     PreslidingDahl {
-        /// Distance after which the change reaches 63 % \[channel unit\].
+        /// Distance over which 63 % of a change of z takes place \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
     "presliding-dahl" in "presliding": "dahl(x; r)", Dimension::ONE,
@@ -155,22 +154,21 @@ effect! {
     };
 }
 
-/// The memory at the first sample: neither spring is deflected.
+/// The memory at the first sample: the spring is not deflected.
 fn fresh<T: Real>(x: T) -> [T; 4] {
     [x, T::zero(), T::zero(), T::zero()]
 }
 
 effect! {
-    /// A loop that changes with the work done and then settles.
+    /// A hysteresis loop that changes with the accumulated work and then settles.
     ///
-    /// Formula: `eta·(1 − exp(−W/w_c))`, `W = ∫|eta|·|dx|` along the transmission's input
-    /// (trapezoids, from the first sample on), for any channel. For W ≪ w_c it is the linear
-    /// `eta·W/w_c`. Its limit is `eta`, so the loop stays bounded after running-in. The sum is
-    /// compensated, so small steps count even in `f32`.
+    /// Formula: `eta·(1 − exp(−W/w_c))` with `W = ∫|eta|·|dx|`, where x is the transmission's
+    /// input, whatever the source of the term. The integral uses the trapezoidal rule and starts at
+    /// the first sample. For W ≪ w_c the regressor is approximately `eta·W/w_c`. Its limit is
+    /// `eta`, so the loop stays bounded after running-in.
     ///
-    /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems", *Journal of
-    /// the Engineering Mechanics Division* 107(6), 1981, where the change is linear in the work; here
-    /// the exponential bounds the change.
+    /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems",
+    /// *Journal of the Engineering Mechanics Division* 107(6), 1981 (linear in the work).
     ///
     /// ```
     /// use bowden::{effect::Degradation, Error};
@@ -196,11 +194,11 @@ effect! {
 }
 
 effect! {
-    /// A first-order low-pass of x.
+    /// Creep: x through a first-order low-pass filter.
     ///
-    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. Several elements with time constants a
-    /// decade apart give the logarithmic creep of polymers and piezo stacks. The state starts at
-    /// the first x.
+    /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. The initial state is the first x.
+    /// Several elements with time constants a decade apart approximate the logarithmic creep of
+    /// polymers and piezo stacks.
     ///
     /// Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
     /// creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
@@ -229,45 +227,41 @@ effect! {
     }
 }
 
-/// 1 over the channel's unit.
+/// The reciprocal of the channel unit.
 const PER_POSITION: Dimension = Dimension {
     channel: -1,
     ..Dimension::ONE
 };
 
 effect! {
-    /// The hardening state; starts at zero.
+    /// Hardening hysteresis: its slope increases with its state.
     ///
-    /// Formula: `w(x)`, the state of `dw/dx = 1 + g·|w|` while it moves away from zero and
-    /// `dw/dx = 1 + (g + 2·beta)·|w|` on the return, with w = 0 at the first sample. It has the
-    /// unit of x; the gain is the initial stiffness.
+    /// Formula: `w(x; g, beta)`. While the state w moves away from zero, `dw/dx = 1 + g·|w|`. While
+    /// w returns, `dw/dx = 1 + (g + 2·beta)·|w|`. At the first sample, w = 0. The unit of w is that
+    /// of x, so the gain is the initial stiffness.
     ///
-    /// In the form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n` with n = 1, `z = A·w`, `beta = b`
-    /// and `g = −(b + c)`. This branch lies beyond the range of
-    /// [`BoucWen`](crate::hysteresis::BoucWen), with sigma outside \[−1, 1\]; it begins where b + c
-    /// passes zero.
+    /// In the Bouc-Wen form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n`, this effect has n = 1,
+    /// `z = A·w`, `b = beta` and `b + c = −g`. A [`BoucWen`](crate::hysteresis::BoucWen) has
+    /// `b + c > 0` and `sigma = b/(b + c)`.
     ///
     /// # Bounds
-    /// - For b + c > 0, `|z| ≤ (A/(b + c))^(1/n)` for any motion. This case is a `BoucWen`, not a
-    ///   `Hardening`.
-    /// - For b + c ≤ 0 no such bound exists: a longer stroke reaches a larger w. With `beta > 0`,
-    ///   which the constructor requires, the stroke bounds w. Over a motion within a range of
-    ///   length R, `|w| ≤ (exp(g·R) − 1)/g`, for any distance travelled. Proof: the curve
+    /// - For `b + c > 0` (a `BoucWen`), `|z| ≤ (A/(b + c))^(1/n)` for any motion.
+    /// - For `b + c < 0`, only a limited stroke bounds w. If x stays within a range of length R,
+    ///   `|w| ≤ (exp(g·R) − 1)/g` for any distance travelled. Proof: the curve
     ///   `U(x) = (exp(g·(x − x_min)) − 1)/g` has `U' = 1 + g·U`. At w = U, the state rises with the
-    ///   same slope, and falls with the steeper slope `1 + (g + 2·beta)·w`; so w never exceeds U.
-    ///   The same holds for negative w. With `beta < 0`, small reversals would increase w without
-    ///   limit.
-    /// - Cycles dissipate energy: the area of a loop is never negative, because the return branch
-    ///   lies below the outward one.
+    ///   same slope and falls with the steeper slope `1 + (g + 2·beta)·w`. Therefore w never
+    ///   exceeds U. The same holds for negative w. The proof requires `beta > 0`: with `beta < 0`,
+    ///   small reversals would increase w without limit.
+    /// - A cycle generates no energy, because the return branch lies below the outward branch.
     ///
-    /// If x is monotone between two samples, the step is the exact solution for any dx. If the
-    /// exponential overflows, the step saturates at the largest float.
+    /// If x is monotonic between two samples, the step is exact for any dx.
     ///
     /// Source: Y. K. Wen, "Method for random vibration of hysteretic systems", *Journal of the
     /// Engineering Mechanics Division* 102(2), 1976; F. Ikhouane, J. Rodellar, *Systems with
-    /// Hysteresis*, 2007, table 2.1 (classes); the values of J. P. Noël, M. Schoukens, "Hysteretic
-    /// benchmark with a dynamic nonlinearity", *Workshop on Nonlinear System Identification
-    /// Benchmarks*, 2016, are A = 5e4 N/m, b = 800 1/m, c = −1100 1/m, so g = 300, beta = 800 1/m.
+    /// Hysteresis*, 2007, table 2.1 (classes). The benchmark of J. P. Noël, M. Schoukens,
+    /// "Hysteretic benchmark with a dynamic nonlinearity", *Workshop on Nonlinear System
+    /// Identification Benchmarks*, 2016, has A = 5e4 N/m, b = 800 1/m and c = −1100 1/m. The
+    /// corresponding parameters are `g = 300` and `beta = 800` in 1/m.
     ///
     /// ```
     /// use bowden::{effect::Hardening, Error};
@@ -275,9 +269,9 @@ effect! {
     /// assert_eq!(Hardening::try_new(300.0, -800.0), Err(Error::OutOfRange("beta")));
     /// ```
     Hardening {
-        /// Growth of the slope with the state \[1/channel unit\].
+        /// Increase of the slope with the state \[1/channel unit\].
         g: Positive, PER_POSITION;
-        /// Half of the additional growth on the return \[1/channel unit\].
+        /// Half of the additional increase while w returns to zero \[1/channel unit\].
         beta: Positive, PER_POSITION;
     }
     "hardening" in "hardening": "w(x; g, beta)", Dimension::POSITION,
@@ -315,13 +309,15 @@ fn grown<T: Real>(a: T, rate: T, p: T) -> T {
 }
 
 effect! {
-    /// The low-pass of the output minus the output; its state starts at the first output.
+    /// First-order lag of the output.
     ///
-    /// Formula: `lowpass(output; tau) − output`; a gain of 1 is the full lag. The low-pass holds
-    /// each sample over its dt, so it is exact for steps at any dt. Because of rounding, the memory
-    /// stops short of its target by a relative error of up to `tau/dt` times half the machine
-    /// epsilon. In `f32` this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6. The lag is an
-    /// output stage: it reads the sum of all terms before it.
+    /// Formula: `lowpass(output; tau) − output`. With a gain of 1, the result is the filtered
+    /// output. The initial state is the first output. The filter uses a zero-order hold, so its
+    /// step response is exact for any dt. Because of rounding errors, the state stops short of its
+    /// target, with a relative error of up to `tau/dt` times half the machine epsilon. In `f32`
+    /// this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
+    ///
+    /// This effect is an output stage: it reads the sum of all terms before it.
     ///
     /// Source: K. J. Åström, R. M. Murray, *Feedback Systems*, 2008, chapter 8.
     ///
@@ -349,14 +345,14 @@ effect! {
     }
 }
 
-/// Fraction of the distance to a held input that a first-order low-pass covers in one step:
+/// Fraction of the distance to a constant input that a first-order low-pass covers in one step:
 /// `1 − exp(−dt/tau)`.
 #[inline]
 fn held_share<T: Real>(tau: T, dt: T) -> T {
     -(-dt / tau).exp_m1()
 }
 
-/// First-order low-pass with held samples: `level += share·(input − level)`.
+/// First-order low-pass with a zero-order hold: `level += share·(input − level)`.
 #[inline]
 fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, share: impl FnOnce() -> T) -> T {
     let level = match state.memory {
@@ -368,16 +364,17 @@ fn low_pass<T: Real>(state: &mut EffectState<T>, input: T, share: impl FnOnce() 
 }
 
 effect! {
-    /// A pure delay: the loop opens with frequency.
+    /// A pure delay of the output, which widens the loop as the frequency rises.
     ///
-    /// The gain is the delay T \[s\]. The output passes through a first-order all-pass,
-    /// `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. The all-pass has magnitude
-    /// 1 at every frequency, and is exact for `T = dt`. Its delay is T with a relative error of
-    /// `(w·T)²/12` or, for a T below dt, of `(w·dt)²/12`. The first sample is not delayed. A
-    /// negative T advances the output by the first-order term of its Taylor series.
+    /// The gain is the delay T \[s\]. The output passes through the first-order all-pass filter
+    /// `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. The filter has magnitude 1
+    /// at every frequency, and is exact for `T = dt`. At the angular frequency w, the relative
+    /// error of the delay is `(w·T)²/12` or, for a T below dt, `(w·dt)²/12`. The first sample is
+    /// not delayed. A negative T advances the output by the first-order term of its Taylor series.
     ///
-    /// The regressor is the slope at T = 0: `−d(output)/dt`, computed as the backward difference. The
-    /// delay is an output stage: it reads the sum of all terms before it.
+    /// The regressor is the derivative with respect to T at T = 0, `−d(output)/dt`, computed as a
+    /// backward difference. This effect is an output stage: it reads the sum of all terms before
+    /// it.
     ///
     /// Source: J. P. Thiran, "Recursive digital filters with maximally flat group delay", *IEEE
     /// Transactions on Circuit Theory* 18(6), 1971 (order 1); for the regressor, the Taylor

@@ -1,14 +1,12 @@
 //! Effects of a cable transmission other than its hysteresis.
 //!
-//! Each effect is a *regressor*, a function of the motion, the load and the hysteresis state, times
-//! a gain that the fit identifies. Each effect states its formula, unit, symmetries, shape
-//! parameters and source. The symmetries show which effects can explain a residual, and which
-//! experiment separates two effects. Each effect is a type of its own; [`Effect`] can hold any of
-//! them.
+//! Each effect defines a *regressor*, a function of the motion, the load and the hysteresis state.
+//! A term of a model is a gain times a regressor, and a fit identifies the gain. Each effect has
+//! its own type, and [`Effect`] can hold any effect. [`Info`] gives the formula, unit, symmetries
+//! and shape parameters of an effect. The symmetries show which effects can explain a residual, and
+//! which experiment separates two effects.
 //!
-//! A regressor is finite for finite input: it saturates if the arithmetic overflows. If an
-//! input is not finite or `dt` is negative, the regressor returns 0 and leaves its memory
-//! unchanged.
+//! A regressor saturates if the arithmetic overflows.
 
 mod bounds;
 mod declare;
@@ -43,7 +41,7 @@ macro_rules! effects {
             }
         }
 
-        /// All effects, in the order in which compact forms number them.
+        /// All effects, in the order of their indices in compact formats.
         ///
         /// ```
         /// let with_memory = bowden::effect::CATALOGUE.iter().filter(|info| info.memory);
@@ -70,21 +68,21 @@ macro_rules! effects {
                 }
             }
 
-            /// Position of the effect in a model: a table of its own, without the other properties.
+            /// Position of the effect in a model, from a table without the other properties.
             pub(crate) fn stage(&self) -> Stage {
                 match &self.0 {
                     $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO.stage,)+
                 }
             }
 
-            /// The quantities that the effect reads, likewise.
+            /// The quantities that the effect reads, from a table without the other properties.
             pub(crate) fn reads(&self) -> &'static [Quantity] {
                 match &self.0 {
                     $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO.reads,)+
                 }
             }
 
-            /// The value of one shape parameter.
+            /// The value of a shape parameter, or `None` if there is no parameter with this index.
             #[must_use]
             pub fn shape(&self, index: usize) -> Option<T> {
                 match &self.0 {
@@ -94,7 +92,8 @@ macro_rules! effects {
                 }
             }
 
-            /// The effect with this name and these shape parameters, in order.
+            /// The effect with this name and these shape parameters, in the order of
+            /// [`Info::shapes`].
             ///
             /// # Errors
             /// - [`Error::OutOfRange`] if the catalogue has no such effect, or if a shape
@@ -110,8 +109,9 @@ macro_rules! effects {
                 }
             }
 
-            /// The regressors of a record, one per sample. Each equals
-            /// [`regressor`](Self::regressor) bit for bit, at a lower cost for many samples.
+            /// Passes the regressor at each sample of a record to `take`. The values equal those of
+            /// [`regressor`](Self::regressor) bit for bit. For many samples, this function is
+            /// faster.
             pub fn regressors(
                 &self,
                 state: &mut EffectState<T>,
@@ -126,9 +126,9 @@ macro_rules! effects {
                 }
             }
 
-            /// The regressor at one sample; the caller multiplies it by the gain.
+            /// The regressor at one sample, without the gain.
             ///
-            /// The result is finite for finite input. If a number that the effect reads is not
+            /// The result is finite for finite inputs. If a number that the effect reads is not
             /// finite, or a `dt` that it reads is negative, the result is 0 and `state` is
             /// unchanged.
             #[inline]
@@ -204,8 +204,8 @@ effects! {
     spring::CurveVelocity <T>,
 }
 
-/// One effect, with its shape parameters: any type of this module, or a name of the
-/// [`CATALOGUE`].
+/// Any effect of this module, with its shape parameters. Create it from the type of the effect, or
+/// by its name in the [`CATALOGUE`].
 ///
 /// ```
 /// use bowden::effect::{Coulomb, Effect};
@@ -223,7 +223,7 @@ crate::checked::stored_as! {
     Effect<T> as Kind<T>: |effect| effect.0, |kind| Ok::<_, Error>(Effect(kind))
 }
 
-/// The most shape parameters of an effect.
+/// Largest number of shape parameters of an effect.
 const MOST_SHAPES: usize = 2;
 
 #[inline]
@@ -260,7 +260,7 @@ fn along<T: Real, R: Regressor<T>>(
 }
 
 impl<T: Real> Effect<T> {
-    /// The effect's own name, such as "drag-quadratic".
+    /// Name of the effect, such as "drag-quadratic".
     pub fn name(&self) -> &'static str {
         self.info().name
     }
@@ -269,7 +269,7 @@ impl<T: Real> Effect<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no such shape parameter or if the value lies outside its
-    /// range, [`Error::NonFinite`] if the value is not finite.
+    /// range; [`Error::NonFinite`] if the value is not finite.
     pub fn with_shape(&self, index: usize, value: T) -> Result<Self, Error> {
         let info = self.info();
         let mut shapes = [T::ZERO; MOST_SHAPES];
@@ -281,13 +281,12 @@ impl<T: Real> Effect<T> {
         Self::try_from_name(info.name, own)
     }
 
-    /// The contribution of a term with this gain to the output: gain times regressor, except for a
-    /// delay.
+    /// The contribution of a term with this gain to the output. It is gain times regressor, except
+    /// for a delay.
     ///
-    /// The gain of a [`Delay`] is a time, and the output is not linear in this time; the regressor
-    /// is the slope at zero delay. The result is finite for finite input. If a number that the
-    /// effect reads is not finite, or a `dt` that it reads is negative, the result is 0 and `state`
-    /// is unchanged.
+    /// The gain of a [`Delay`] is a time, and the contribution is the delayed output minus the
+    /// output. This contribution is not linear in the gain. Numbers that overflow or are not finite
+    /// have the same consequences as for [`regressor`](Self::regressor).
     ///
     /// ```
     /// use bowden::effect::{Delay, Effect, EffectState, Inputs};
@@ -307,8 +306,9 @@ impl<T: Real> Effect<T> {
         saturate(part)
     }
 
-    /// The contributions of a term with this gain along a record, one per sample. Each equals
-    /// [`contribution`](Self::contribution) bit for bit, at a lower cost for many samples.
+    /// Passes the contribution of a term with this gain at each sample of a record to `take`. The
+    /// values equal those of [`contribution`](Self::contribution) bit for bit. For many samples,
+    /// this function is faster.
     pub fn contributions(
         &self,
         gain: T,
@@ -334,8 +334,8 @@ impl<T: Real> Effect<T> {
 
     /// Whether the effect acts on the transmission's input instead of adding to the output.
     ///
-    /// The regressor then has the unit of the input, and the gain is dimensionless. Without a
-    /// transmission the term has no influence.
+    /// The regressor of such an effect has the unit of the input, and the gain is dimensionless. In
+    /// a model without a transmission, the term adds nothing.
     pub fn is_input_stage(&self) -> bool {
         self.stage() == Stage::Input
     }

@@ -1,33 +1,33 @@
-//! Signals that are regressors themselves: constant, load, acceleration, time, another channel.
+//! Effects that are a simple function of one signal, such as an offset, inertia or drift.
 
 use super::declare::effect;
 use super::Dimension;
 use core::f64::consts::TAU;
 
 effect! {
-    /// A constant: the offset of the sensor or of the load.
+    /// A constant offset of the sensor or of the load.
     ///
     /// Formula: `1`.
     ///
-    /// Source: part of any linear regression; L. Ljung, *System Identification*, 1999.
+    /// Source: L. Ljung, *System Identification*, 1999.
     Offset;
     "offset" in "offset": "1", Dimension::ONE, Even Even, reads;
     value(_, _, _) = T::one();
 }
 
 effect! {
-    /// A gain error, proportional to the load.
+    /// A gain error: an output proportional to the load.
     ///
     /// Formula: `load`.
     ///
-    /// Source: the gain B of the transmission, L. Ljung, *System Identification*, 1999.
+    /// Source: L. Ljung, *System Identification*, 1999.
     Gain;
     "gain" in "gain": "load", Dimension::LOAD, Odd Even, reads Load;
     value(_, _, at) = at.load;
 }
 
 effect! {
-    /// Inertia: an output proportional to the acceleration, and even in the velocity.
+    /// Inertia: an output proportional to the acceleration.
     ///
     /// Formula: `a`.
     ///
@@ -40,7 +40,7 @@ effect! {
 }
 
 effect! {
-    /// Drift: a trend in time.
+    /// Drift: an output proportional to the time since the start.
     ///
     /// Formula: `t`.
     ///
@@ -52,7 +52,7 @@ effect! {
 }
 
 effect! {
-    /// A sine in time, unrelated to the measured signals.
+    /// A sinusoid in time, independent of the measured signals.
     ///
     /// Formula: `sin(2·pi·f·t + psi)`.
     ///
@@ -77,7 +77,7 @@ effect! {
 }
 
 effect! {
-    /// A step of the preload at the time `t_s`.
+    /// A preload step at the time `t_s`.
     ///
     /// Formula: `1` if `t ≥ t_s`, otherwise 0.
     ///
@@ -105,7 +105,7 @@ effect! {
 }
 
 effect! {
-    /// The difference between the temperature and `t_ref`.
+    /// A linear dependence on the temperature.
     ///
     /// Formula: `x − t_ref`, where the channel x must be a temperature.
     ///
@@ -130,7 +130,7 @@ effect! {
     ///
     /// Formula: `x` of the other channel.
     ///
-    /// Source: L. Ljung, *System Identification*, 1999 (several inputs).
+    /// Source: L. Ljung, *System Identification*, 1999 (systems with several inputs).
     Crosstalk;
     "crosstalk" in "crosstalk": "x of another channel", Dimension::POSITION,
         Odd Even, reads Position;

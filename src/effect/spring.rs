@@ -1,18 +1,17 @@
-//! Springs, periodic curves and the shape of the loop: regressors without memory of position and eta.
+//! Springs, gravity, ripple, saturation, curves, and effects on the shape of the loop.
 
 use super::declare::effect;
 use super::Dimension;
 use crate::Real;
 
 effect! {
-    /// Stiffness: single-valued in the position.
+    /// Linear stiffness.
     ///
-    /// Formulas: `x`, `x²`, `x³`, `x·|x|` (progressive), and the hinge `max(0, x − x_h)`, which is
-    /// a second spring that engages at x_h.
+    /// Formula: `x`.
     ///
-    /// Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher
-    /// Eigenfrequenz*, 1918; for the hinge, S. W. Shaw, P. J. Holmes, "A periodically
-    /// forced piecewise linear oscillator", *Journal of Sound and Vibration* 90(1), 1983.
+    /// Source: G. Duffing, *Erzwungene Schwingungen bei veränderlicher Eigenfrequenz*, 1918; for
+    /// [`Hinge`](super::Hinge), S. W. Shaw, P. J. Holmes, "A periodically forced piecewise linear
+    /// oscillator", *Journal of Sound and Vibration* 90(1), 1983.
     StiffnessLinear;
     "stiffness-linear" in "stiffness": "x", Dimension::POSITION, Odd Even, reads Position;
     value(_, _, at) = at.motion.position;
@@ -21,7 +20,7 @@ effect! {
 effect! {
     /// Quadratic stiffness.
     ///
-    /// Formula: `x²`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    /// Formula: `x²`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     StiffnessQuadratic;
     "stiffness-quadratic" in "stiffness": "x²", Dimension { channel: 2, ..Dimension::ONE },
         Even Even, reads Position;
@@ -31,7 +30,7 @@ effect! {
 effect! {
     /// Cubic stiffness.
     ///
-    /// Formula: `x³`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    /// Formula: `x³`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     StiffnessCubic;
     "stiffness-cubic" in "stiffness": "x³", Dimension { channel: 3, ..Dimension::ONE },
         Odd Even, reads Position;
@@ -39,9 +38,9 @@ effect! {
 }
 
 effect! {
-    /// Progressive stiffness.
+    /// Progressive stiffness, the same in both directions.
     ///
-    /// Formula: `x·|x|`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    /// Formula: `x·|x|`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     StiffnessProgressive;
     "stiffness-progressive" in "stiffness": "x·|x|", Dimension { channel: 2, ..Dimension::ONE },
         Odd Even, reads Position;
@@ -49,9 +48,9 @@ effect! {
 }
 
 effect! {
-    /// A spring that engages at `x_h`.
+    /// A second spring that engages at `x_h`.
     ///
-    /// Formula: `max(0, x − x_h)`; source: [`StiffnessLinear`](super::StiffnessLinear).
+    /// Formula: `max(0, x − x_h)`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     ///
     /// ```
     /// use bowden::{effect::Hinge, Error};
@@ -77,26 +76,27 @@ fn above<T: Real>(x: T, limit: T) -> T {
 }
 
 effect! {
-    /// Stretch: the elasticity of a cable between its two ends.
+    /// Linear elasticity of a cable between its two ends.
     ///
-    /// Formulas: `s` and `s³` (hardening), where the channel `s` is the stretch: the difference
-    /// between the angles at the two ends, `phi_p − phi_d`. The caller computes this channel, with
-    /// the signs and the gear ratio of the rig. If the ends rotate in opposite directions, the
-    /// stretch is the sum of the two angles.
+    /// Formula: `s`, where the channel `s` is the stretch of the cable: the difference
+    /// `phi_p − phi_d` between the angles at its ends. The caller computes this channel, with the
+    /// signs and the gear ratio of the rig. If the ends rotate in opposite directions, the stretch
+    /// is the sum of the angles.
     ///
     /// Source: M. W. Spong, "Modeling and Control of Elastic Joint Robots", *Journal of Dynamic
-    /// Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for the
-    /// cubic, T. D. Tuttle, W. P. Seering, "A Nonlinear Model of a Harmonic Drive Gear
-    /// Transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
+    /// Systems, Measurement, and Control* 109(4), 1987, where the torque is `k·(q₁ − q₂)`; for
+    /// [`StretchCubic`](super::StretchCubic), T. D. Tuttle, W. P. Seering, "A Nonlinear Model of a
+    /// Harmonic Drive Gear Transmission", *IEEE Transactions on Robotics and Automation* 12(3),
+    /// 1996.
     StretchLinear;
     "stretch-linear" in "stretch": "s", Dimension::POSITION, Odd Even, reads Position;
     value(_, _, at) = at.motion.position;
 }
 
 effect! {
-    /// Cubic stretch: a cable that hardens.
+    /// Cubic elasticity of a cable that hardens.
     ///
-    /// Formula: `s³`; source: [`StretchLinear`](super::StretchLinear).
+    /// Formula: `s³`. Source: see [`StretchLinear`](super::StretchLinear).
     StretchCubic;
     "stretch-cubic" in "stretch": "s³", Dimension { channel: 3, ..Dimension::ONE },
         Odd Even, reads Position;
@@ -104,7 +104,7 @@ effect! {
 }
 
 effect! {
-    /// The weight of a lever at the angle x.
+    /// Gravity: the torque of the weight of a lever at the angle x.
     ///
     /// Formula: `sin(x + psi)`. The channel must be an angle in radians.
     ///
@@ -117,7 +117,7 @@ effect! {
     /// assert_eq!(Gravity::try_new(f64::NAN), Err(Error::NonFinite("psi")));
     /// ```
     Gravity {
-        /// Angle of the lever at x = 0, against the vertical \[rad\].
+        /// Angle of the lever from the vertical at x = 0 \[rad\].
         psi: Finite, Dimension::ONE;
     }
     "gravity" in "gravity": "sin(x + psi)", Dimension::ONE, Neither Even, reads Position;
@@ -127,7 +127,8 @@ effect! {
 effect! {
     /// A ripple with `k` periods per turn.
     ///
-    /// Formula: `sin(k·x + psi)`, where k follows from the teeth, the lobes or a gear ratio.
+    /// Formula: `sin(k·x + psi)`, where k is a number of teeth or lobes, or follows from a gear
+    /// ratio.
     ///
     /// Source: T. D. Tuttle, W. P. Seering, "A nonlinear model of a harmonic drive
     /// gear transmission", *IEEE Transactions on Robotics and Automation* 12(3), 1996.
@@ -148,12 +149,12 @@ effect! {
 }
 
 effect! {
-    /// The excess of x above `x_s`.
+    /// Upper saturation: the excess of x above `x_s`.
     ///
-    /// Formulas: `max(0, x − x_s)` above, `min(0, x − x_s)` below.
+    /// Formula: `max(0, x − x_s)`.
     ///
-    /// Source: hinge functions, J. H. Friedman, "Multivariate adaptive regression
-    /// splines", *Annals of Statistics* 19(1), 1991.
+    /// Source: J. H. Friedman, "Multivariate adaptive regression splines", *Annals of Statistics*
+    /// 19(1), 1991 (hinge functions).
     ///
     /// ```
     /// use bowden::{effect::SaturationUpper, Error};
@@ -170,9 +171,9 @@ effect! {
 }
 
 effect! {
-    /// The excess of x below `x_s`.
+    /// Lower saturation: the excess of x below `x_s`, which is negative.
     ///
-    /// Formula: `min(0, x − x_s)`; source: [`SaturationUpper`](super::SaturationUpper).
+    /// Formula: `min(0, x − x_s)`. Source: see [`SaturationUpper`](super::SaturationUpper).
     ///
     /// ```
     /// use bowden::{effect::SaturationLower, Error};
@@ -189,20 +190,19 @@ effect! {
 }
 
 effect! {
-    /// One segment of a curve over the position.
+    /// One segment of a piecewise linear curve over the position.
     ///
-    /// Formulas: `clip((x − from)/width, 0, 1)`, and the same for v: one segment, which rises from
-    /// 0 to 1 and stays there. A curve through the points `(x_1, f_1)` to `(x_N, f_N)`, constant
-    /// beyond its ends, is an offset and N − 1 segments:
-    /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`.
-    /// [`Term::curve`](crate::model::Term::curve) gives these N terms. For a curve over the load,
-    /// the channel of the source is the load.
+    /// Formula: `clip((x − from)/width, 0, 1)`. A curve through the points `(x_1, f_1)` to
+    /// `(x_N, f_N)` is the sum of an offset and N − 1 segments:
+    /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`. The curve is constant
+    /// beyond its ends. [`Term::curve`](crate::model::Term::curve) returns these N terms. For a
+    /// curve over the load, use the channel of the load as the source.
     ///
-    /// A segment lies between 0 and 1 for any input, so it can be a regressor of the
-    /// [adaptive law](crate::control::Adaptive), which then learns the curve point by point.
+    /// The value of a segment is between 0 and 1 for any input. A segment can therefore be a
+    /// regressor of the [adaptive law](crate::control::Adaptive), which then estimates the curve.
     ///
     /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter III (piecewise linear
-    /// interpolation), with the hat functions summed from the right.
+    /// interpolation).
     ///
     /// ```
     /// use bowden::{effect::CurvePosition, Error};
@@ -221,9 +221,10 @@ effect! {
 }
 
 effect! {
-    /// One segment of a curve over the velocity.
+    /// One segment of a piecewise linear curve over the velocity.
     ///
-    /// Formula: `clip((v − from)/width, 0, 1)`; source: [`CurvePosition`](super::CurvePosition).
+    /// Formula: `clip((v − from)/width, 0, 1)`. Source: see
+    /// [`CurvePosition`](super::CurvePosition).
     ///
     /// ```
     /// use bowden::{effect::CurveVelocity, Error};
@@ -241,7 +242,8 @@ effect! {
     value(it, _, at) = share(at.motion.velocity, it.from, it.width);
 }
 
-/// The fraction of a segment below a value: one copy in a firmware image, not one per segment.
+/// The fraction of a segment that is below a value. A firmware image contains one copy of this
+/// function, not one per segment.
 #[inline(never)]
 fn share<T: Real>(value: T, from: T, width: T) -> T {
     let along = value - from;
@@ -255,7 +257,7 @@ fn share<T: Real>(value: T, from: T, width: T) -> T {
 }
 
 effect! {
-    /// A change of the loop around eta = 0.
+    /// Pinching: a change of the loop near eta = 0.
     ///
     /// Formula: `eta·exp(−(eta/w)²)`.
     ///
@@ -268,7 +270,7 @@ effect! {
     /// assert_eq!(Pinching::try_new(0.0), Err(Error::OutOfRange("w")));
     /// ```
     Pinching {
-        /// Width, in the units of eta (dimensionless).
+        /// Width in eta (dimensionless).
         w: Positive, Dimension::ONE;
     }
     "pinching" in "pinching": "eta·exp(−(eta/w)²)", Dimension::ONE, Odd Even, reads Eta;
@@ -279,9 +281,9 @@ effect! {
 }
 
 effect! {
-    /// Rate dependence: the loop's height changes with speed.
+    /// Rate dependence: the height of the loop changes with the velocity.
     ///
-    /// Formulas: `eta·v` and `eta·|v|`.
+    /// Formula: `eta·v`.
     ///
     /// Source: M. Al Janaideh, P. Krejčí, "Inverse rate-dependent Prandtl-Ishlinskii
     /// model for feedforward compensation of hysteresis in a piezomicropositioning
@@ -292,9 +294,9 @@ effect! {
 }
 
 effect! {
-    /// Rate dependence through the magnitude of the velocity.
+    /// Rate dependence: the height of the loop changes with the speed.
     ///
-    /// Formula: `eta·|v|`; source: [`Rate`](super::Rate).
+    /// Formula: `eta·|v|`. Source: see [`Rate`](super::Rate).
     RateSymmetric;
     "rate-symmetric" in "rate": "eta·|v|", Dimension::VELOCITY, Odd Even, reads Eta Velocity;
     value(_, _, at) = at.eta * at.motion.velocity.abs();

@@ -1,4 +1,4 @@
-//! The bounded-time step; the documentation of the parent module derives it.
+//! The bounded-time step, derived in the documentation of the parent module.
 
 use super::law;
 use super::number::Number;
@@ -9,15 +9,15 @@ use num_traits::{One, Zero};
 #[path = "../../proofs/bounded.rs"]
 mod proofs;
 
-/// Where `n·c·a^n` is above this, unloading is a power law rather than a straight line.
+/// Above this value of `n·c·a^n`, unloading is a power law, not a straight line.
 const STEEP: f64 = 3.0;
-/// Beyond this `1/(1 + most)` is zero to rounding.
+/// Above this value of `most`, `1/(1 + most)` is zero within the rounding error.
 const SATURATED: f64 = 1e30;
 
-/// Constants of a shape for the step, computed once.
+/// Constants of the step for one set of parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Constants<N> {
-    /// Ratio of the initial rates of unloading and loading, minus one: `2·sigma - 1`.
+    /// `2·sigma - 1`: ratio of the initial slopes of unloading and loading, minus one.
     pub c: N,
     pub n: N,
     /// `-1/n`.
@@ -38,7 +38,8 @@ pub(super) struct Series<N> {
 }
 
 impl<N: Number> Constants<N> {
-    /// Those of [`BoucWen::try_new`](super::BoucWen::try_new), with their derivatives if N has any.
+    /// The constants of [`BoucWen::try_new`](super::BoucWen::try_new), with derivatives if N has
+    /// any.
     pub(super) fn of(c: N, n: N) -> Self {
         let (of, one) = (N::Float::from_f64, N::constant(N::Float::one()));
         let n1 = n + one;
@@ -57,8 +58,8 @@ impl<N: Number> Constants<N> {
 }
 
 impl<N: Number> Series<N> {
-    /// `zeta` after the path p from zero, `p <= 1`: that of
-    /// `p = zeta·(1 + zeta^n/(n + 1) + zeta^(2n)/(2n + 1) + …)`; y is `p^n`.
+    /// `zeta` after the path `p <= 1` from zero: the solution of
+    /// `p = zeta·(1 + zeta^n/(n + 1) + zeta^(2n)/(2n + 1) + …)`. The argument y is `p^n`.
     #[inline]
     fn turned_round(&self, p: N, y: N) -> N {
         let below = y * (self.first + y * self.second);
@@ -78,13 +79,13 @@ pub(super) fn follow<N: Number>(zeta: N, p: N, shape: &Constants<N>) -> N {
     follow_powered(zeta, p, powered(zeta, shape.n), shape)
 }
 
-/// `|zeta|^(n-1)`; at zero it is an arbitrary number that is not used.
+/// `|zeta|^(n-1)`. At zero the result is arbitrary and not used.
 #[inline]
 pub(super) fn powered<N: Number>(zeta: N, n: N) -> N {
     (n.shift(-N::Float::one()) * zeta.abs().log2()).exp2()
 }
 
-/// The same path where [`powered`] is known.
+/// The same as [`follow`], with a known result of [`powered`].
 #[inline]
 pub(super) fn follow_powered<N: Number>(zeta: N, p: N, powered: N, shape: &Constants<N>) -> N {
     if zeta.value() > N::Float::zero() {
@@ -128,8 +129,8 @@ pub(super) fn leave_zero<N: Number>(p: N, shape: &Constants<N>) -> N {
     )
 }
 
-/// `zeta + w·(1 - 1/(1 + m)²)`, `w = 1 - zeta`, where `m` agrees with the equation to third
-/// order in `r = p·f/w` except for `f''`; `turn` is `w·|f'|/f`.
+/// `zeta + w·(1 - 1/(1 + m)²)` with `w = 1 - zeta`. Except for `f''`, `m` agrees with the equation
+/// to third order in `r = p·f/w`. The argument `turn` is `w·|f'|/f`.
 #[inline]
 fn approach<N: Number>(zeta: N, w: N, r: N, turn: N) -> N {
     let (of, one) = (N::Float::from_f64, N::Float::one());
@@ -188,7 +189,7 @@ pub(super) fn unload<N: Number>(a: N, p: N, powered: N, shape: &Constants<N>) ->
     }
 }
 
-/// `(1 + (n - 1)·s)^(-1/(n - 1))` to second order in `s`, within 0.1 for any.
+/// `(1 + (n - 1)·s)^(-1/(n - 1))` to second order in `s`, with an error of at most 0.1 for any `s`.
 #[inline]
 fn inverse_power<N: Number>(s: N, n: N) -> N {
     let (of, one) = (N::Float::from_f64, N::Float::one());
@@ -199,8 +200,9 @@ fn inverse_power<N: Number>(s: N, n: N) -> N {
     (s * above).shift(one) / below.shift(one)
 }
 
-/// Path from `a` to zero over `a`, and its inverse: a convergent of the continued fraction of
-/// the integral of `1/(1 + x·s^n)` over `s` from 0 to 1, `x = c·a^n`.
+/// The path from `a` to zero, divided by `a`, and the inverse of this quotient. It is a convergent
+/// of the continued fraction of the integral of `1/(1 + x·s^n)` over `s` from 0 to 1, with
+/// `x = c·a^n`.
 #[inline]
 fn flat_share<N: Number>(x: N, n: N) -> (N, N) {
     let n1 = n.shift(N::Float::one());
@@ -212,7 +214,8 @@ fn flat_share<N: Number>(x: N, n: N) -> (N, N) {
     (above / below, below / above)
 }
 
-/// The same to 7 % for a large x: `f^(-1/n)` for `f = 1 + x`, times a correction.
+/// The same quotient for a large x, with an error of up to 7 %: `f^(-1/n)` for `f = 1 + x`, times a
+/// correction.
 #[inline]
 fn steep_share<N: Number>(f: N, shape: &Constants<N>) -> N {
     let log = f.coarse_log2();

@@ -1,13 +1,13 @@
-//! Closed forms of the path for `n = 1`, `n = 2`, and of unloading for `sigma = 1/2`.
+//! Closed-form solutions of the path for `n = 1` and `n = 2`.
 //!
-//! A segment is split at `zeta = 0`: the unloading part ends there after a known path, and the rest
-//! is loading from zero.
+//! A path is split at `zeta = 0`. Unloading ends there after a known path, and loading from zero
+//! follows.
 
 use crate::Real;
 
 /// Exact `zeta` after the path `p` for `n = 1`.
 ///
-/// Loading `1 - (1 - z)·e^(-p)`; unloading crosses zero at `ln(1 + c·|z|)/c`.
+/// Loading gives `1 - (1 - z)·e^(-p)`. Unloading reaches zero after the path `ln(1 + c·|z|)/c`.
 #[inline]
 pub(super) fn linear<T: Real>(zeta: T, p: T, c: T) -> T {
     let (zeta, p) = if zeta < T::zero() {
@@ -34,7 +34,7 @@ pub(super) fn linear<T: Real>(zeta: T, p: T, c: T) -> T {
 
 /// Exact `zeta` after the path `p` for `n = 2`.
 ///
-/// Loading `(z + t)/(1 + z·t)` with `t = tanh p`; unloading crosses zero at
+/// Loading gives `(z + t)/(1 + z·t)` with `t = tanh p`. Unloading reaches zero after the path
 /// `atan(r·|z|)/r` with `r = sqrt(c)`.
 #[inline]
 pub(super) fn quadratic<T: Real>(zeta: T, p: T, c: T) -> T {

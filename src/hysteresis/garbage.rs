@@ -1,6 +1,6 @@
-//! Tests of the step: with a wrong power function, and with a count of its calls.
+//! Tests of the step with a wrong power function, and of the number of powers that it evaluates.
 //!
-//! The bounds must not depend on the power function; the count is the cost.
+//! The bounds must not depend on the power function. The number of powers is the cost of a step.
 
 use super::bounded::Constants;
 use super::number::Number;
@@ -11,11 +11,12 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 extern crate std;
 
 std::thread_local! {
-    /// Number of powers of honest numbers, counted separately for each test.
+    /// Number of correct powers, counted separately for each test.
     static POWERS: Cell<u32> = const { Cell::new(0) };
 }
 
-/// A float whose exponential is counted, or returns what its argument's bits hash to.
+/// A float that counts its exponentials, or whose exponential returns a hash of the bits of its
+/// argument.
 #[derive(Debug, Clone, Copy)]
 struct Fake<const LIES: bool>(f32);
 

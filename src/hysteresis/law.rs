@@ -1,16 +1,13 @@
-//! The state equation of the hysteresis, (2) and (7) of Nguyen et al. (2018).
+//! The state equation of the hysteresis: equations (2) and (7) of Nguyen et al. (2018).
 //!
-//! The names are the paper's; `x` is the input, a displacement in (2) and a torque in (7). With
-//! `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the path p, `dp = rho·|dx|`, the equation
-//! is `dzeta/dp = f(zeta)`, which does not contain time. [`eta_rate`] is the equation as published;
-//! [`f`] is the same equation along the path: `eta' = d·rho·|x'|·f(d·eta)` (tested in
-//! `tests/hysteresis/law.rs`). The steps of [`BoucWen`](super::BoucWen) integrate `f` through
-//! `loading` and `unloading`.
+//! The names follow the paper. The input `x` is a displacement in (2) and a torque in (7).
+//! [`eta_rate`] is the equation as published. [`f`] is its form along the path (see
+//! [`hysteresis`](crate::hysteresis)), so `eta' = d·rho·|x'|·f(d·eta)` with `d = sgn(x')`.
 
 use super::number::Number;
 use crate::Real;
 
-/// (2), (7): `eta' = rho·(x' - sigma·|x'|·|eta|^(n-1)·eta + (sigma - 1)·x'·|eta|^n)`.
+/// Equations (2) and (7): `eta' = rho·(x' - sigma·|x'|·|eta|^(n-1)·eta + (sigma - 1)·x'·|eta|^n)`.
 ///
 /// ```
 /// use bowden::hysteresis::law::eta_rate;
@@ -25,7 +22,8 @@ pub fn eta_rate<T: Real>(rho: T, sigma: T, n: T, x_rate: T, eta: T) -> T {
     rho * (x_rate - damping + (sigma - T::one()) * x_rate * power * eta.abs())
 }
 
-/// (2), (7) along the path: `f(zeta)`, where `power` is `|zeta|^n`.
+/// Equations (2) and (7) along the path: `f(zeta)`, where `c` is `2·sigma - 1` and `power` is
+/// `|zeta|^n`.
 #[inline]
 pub fn f<T: Real>(zeta: T, c: T, power: T) -> T {
     if zeta < T::zero() {

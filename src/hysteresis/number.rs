@@ -1,7 +1,6 @@
-//! Number type of the step: a float, or a float with its four derivatives.
+//! Number type of the step: a float, or a float with four derivatives ([`Dual`]).
 //!
-//! The step is written once. On plain floats it is the step; on [`Dual`] it is the exact
-//! derivative of the same step, branch for branch.
+//! With [`Dual`], the same code computes the exact derivatives of the step, including its branches.
 
 use crate::real::calls;
 use crate::real::sealed::Sealed;
@@ -30,9 +29,9 @@ pub(super) trait Number:
     fn sqrt(self) -> Self;
     fn log2(self) -> Self;
     fn exp2(self) -> Self;
-    /// Base-2 logarithm by straight lines between the powers of 2.
+    /// Base-2 logarithm, linearly interpolated between the powers of 2.
     fn coarse_log2(self) -> Self;
-    /// A power by the same straight lines.
+    /// A power from the same interpolation.
     fn coarse_power(self, exponent: Self) -> Self;
 }
 
@@ -74,7 +73,7 @@ pub(super) struct Dual<T> {
 }
 
 impl<T: Real> Dual<T> {
-    /// A function of two numbers: its value, and its slopes by each.
+    /// A function of two numbers, from its value and its two partial derivatives.
     #[inline]
     fn join(self, other: Self, value: T, by_self: T, by_other: T) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.by, other.by);
@@ -84,7 +83,7 @@ impl<T: Real> Dual<T> {
             by: [of(a, e), of(b, f), of(c, g), of(d, h)],
         }
     }
-    /// A function's value, and the derivatives times its slope.
+    /// A function of this number, from its value and slope.
     #[inline]
     fn chain(self, value: T, slope: T) -> Self {
         let [a, b, c, d] = self.by;
@@ -95,7 +94,7 @@ impl<T: Real> Dual<T> {
     }
 }
 
-/// The operators of two numbers: the value, and its slopes by each.
+/// The operators of two numbers, each from its value and its two partial derivatives.
 macro_rules! operators {
     ($($operator:ident::$name:ident($a:ident, $b:ident) = $value:expr;)+) => {$(
         impl<T: Real> $operator for Dual<T> {

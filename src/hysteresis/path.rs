@@ -1,20 +1,20 @@
-//! The splitting step, for any path length; the documentation of the parent module derives it.
+//! The splitting step, derived in the documentation of the parent module.
 
 use super::law;
 use super::number::Number;
 use crate::Real;
 use num_traits::{One, Zero};
 
-/// A path after which the state is saturated for any start: unloading ends within 1, and
+/// A path after which the state is saturated from any start. Unloading ends within a path of 1, and
 /// `1 - e^(-39)` rounds to 1 in `f64`.
 const SATURATING: f64 = 40.0;
-/// A state nearer to zero than this counts as zero: there `f = 1` to rounding.
+/// A state closer to zero than this counts as zero, because `f = 1` within the rounding error.
 pub(super) const NEAR_ZERO: f64 = 1e-9;
-/// Where `n·(1 - zeta)` is below this, the rest of the path has a closed form.
+/// Below this value of `n·(1 - zeta)`, the rest of the path has a closed form.
 const NEAR_SATURATION: f64 = 0.03;
-/// Local accuracy of a part of a long path; the error grows with its fourth power.
+/// Local accuracy of a part of a long path. The error grows with its fourth power.
 const TOLERANCE: f64 = 0.25;
-/// More parts than any path takes for `sigma` up to 1e30; the last part takes the rest.
+/// More parts than any path needs for `sigma` up to 1e30. The last part takes the rest of the path.
 const MOST_PARTS: u32 = 512;
 
 /// `zeta` after the path `p >= 0`, for `zeta` in `[-1, 1]`.
@@ -51,7 +51,7 @@ pub(super) fn unload<N: Number>(zeta: N, path: N, c: N, n: N) -> (N, N) {
     (zeta, p)
 }
 
-/// One part of the path below zero; the last part takes the rest.
+/// One part of the path below zero. The last part takes the rest of the path.
 #[inline]
 pub(super) fn unload_part<N: Number>(zeta: N, p: N, last: bool, c: N, n: N) -> (N, N) {
     let a = -zeta;
@@ -112,7 +112,7 @@ pub(super) fn load<N: Number>(zeta: N, path: N, n: N) -> N {
     zeta
 }
 
-/// One part of the path above zero; the last part takes the rest.
+/// One part of the path above zero. The last part takes the rest of the path.
 #[inline]
 pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
     let (one, end) = (N::Float::one(), N::constant(N::Float::zero()));
@@ -158,8 +158,8 @@ pub(super) fn load_part<N: Number>(zeta: N, p: N, last: bool, n: N) -> (N, N) {
     (zeta + forward, p - h)
 }
 
-/// The first part of the path from zero, where the inverse
-/// `p = zeta·(1 + zeta^n/(n+1) + …)` of the loading branch is short.
+/// The first part of the path from zero, from two terms of the inverse
+/// `p = zeta·(1 + zeta^n/(n+1) + …)` of the loading branch.
 #[inline]
 pub(super) fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
     let one = N::Float::one();
@@ -182,10 +182,10 @@ pub(super) fn leave_zero<N: Number>(p: N, n: N) -> (N, N) {
     }
 }
 
-/// The whole rest of the path where `n·w <= 0.03`, `w = 1 - zeta`.
+/// The rest of the path if `n·w <= 0.03`, `w = 1 - zeta`.
 ///
-/// There `f = n·w - n·(n-1)/2·w²` to 2e-4, a logistic equation: with `E = e^(-n·p)`,
-/// `w` becomes `w·E/(1 - k·w·(1 - E))`, `k = (n-1)/2`; 2e-6/n is its error.
+/// Here `f = n·w - n·(n-1)/2·w²` to 2e-4, which is a logistic equation. With `E = e^(-n·p)` and
+/// `k = (n-1)/2`, `w` becomes `w·E/(1 - k·w·(1 - E))`, with an error of 2e-6/n.
 #[inline]
 fn saturate<N: Number>(zeta: N, w: N, p: N, n: N) -> N {
     let one = N::Float::one();
@@ -215,7 +215,7 @@ fn shorter<N: Number>(p: N, rate: N, weight: N::Float, dual: impl Fn() -> N) -> 
     }
 }
 
-/// The number if it is positive, otherwise zero (also for NaN).
+/// The number if it is positive, otherwise zero (including for NaN).
 #[inline]
 fn positive<N: Number>(x: N) -> N {
     if x.value() > N::Float::zero() {

@@ -1,4 +1,4 @@
-//! The shape parameters of the loop, and the step along the path.
+//! The parameters of the loop, and the step along the path.
 
 use super::bounded::{self, Constants, Series};
 use super::number::Dual;
@@ -15,7 +15,8 @@ use core::fmt;
 /// - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 /// - n ≥ 1: sharpness of the knee, larger is sharper.
 ///
-/// `sigma >= 1/2` makes the model dissipative and, with `n >= 1`, keeps `|eta| <= 1`.
+/// The condition `sigma >= 1/2` makes the model dissipative. Together with `n >= 1`, it ensures
+/// `|eta| <= 1`.
 ///
 /// ```
 /// use bowden::hysteresis::{BoucWenState, BoucWen};
@@ -70,8 +71,8 @@ crate::checked! {
     /// Parameters with `rho > 0` [1/input unit], `sigma >= 1/2` and `n >= 1`.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the parameter's name. `sigma` and `n`
-    /// above 1e9 are out of range, because no loop can reveal such values.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the invalid parameter. A
+    /// `sigma` or `n` above 1e9 is out of range, because such a value cannot be identified.
     pub fn try_new(rho: T, sigma: T, n: T) {
         above_zero!(rho, "rho");
         must_be_finite!(sigma, "sigma");
@@ -94,7 +95,7 @@ impl<T: Real> BoucWen<T> {
         self.rho
     }
 
-    /// The slope after a reversal is 2·sigma·rho.
+    /// Parameter sigma: the slope after a reversal is 2·sigma·rho.
     pub fn sigma(&self) -> T {
         self.sigma
     }
@@ -104,12 +105,12 @@ impl<T: Real> BoucWen<T> {
         self.constants.n
     }
 
-    /// The state after one increment of the input, of any size.
+    /// Eta after an increment of the input [input unit] of any size.
     ///
-    /// Afterwards `|eta| <= 1` holds for any increment. An `eta` outside [-1, 1] is clamped
-    /// first; an increment that is not finite changes nothing. `f32` uses
-    /// [`advance_bounded`](Self::advance_bounded), `f64` uses
-    /// [`advance_split`](Self::advance_split).
+    /// An `eta` outside [-1, 1] is clamped first. After any finite, nonzero increment,
+    /// `|eta| <= 1`. An increment that is not finite returns `eta` unchanged. This function is
+    /// [`advance_bounded`](Self::advance_bounded) for `f32` and
+    /// [`advance_split`](Self::advance_split) for `f64`.
     #[inline]
     #[must_use]
     pub fn advance(&self, eta: T, input_change: T) -> T {
@@ -120,7 +121,10 @@ impl<T: Real> BoucWen<T> {
         }
     }
 
-    /// The state after one increment, in bounded time: at most two short powers, without libm.
+    /// Eta after an increment of the input [input unit], in bounded time.
+    ///
+    /// The step evaluates one power and at most two coarse approximations of a power. In `f32` it
+    /// does not call libm.
     #[inline]
     #[must_use]
     pub fn advance_bounded(&self, eta: T, input_change: T) -> T {
@@ -130,7 +134,8 @@ impl<T: Real> BoucWen<T> {
         self.bounded(crate::signal::clamp(eta, -T::one(), T::one()), input_change)
     }
 
-    /// The same for an eta in \[-1, 1\], and a change that may be infinite.
+    /// The same as [`advance_bounded`](Self::advance_bounded), for an eta in \[-1, 1\] and a change
+    /// that may be infinite.
     #[inline]
     fn bounded(&self, eta: T, input_change: T) -> T {
         let one = T::one();
@@ -139,9 +144,10 @@ impl<T: Real> BoucWen<T> {
         direction * bounded::follow(direction * eta, path, &self.constants)
     }
 
-    /// The state after one increment; a long increment is split, so any jump is accurate.
+    /// Eta after an increment of the input [input unit]. A long increment is split, so a jump of
+    /// any size is accurate.
     ///
-    /// The result is exact for `n = 1` and `n = 2`, otherwise of third order.
+    /// The method is exact for `n = 1` and `n = 2`, and of third order for any other n.
     #[inline]
     #[must_use]
     pub fn advance_split(&self, eta: T, input_change: T) -> T {
@@ -156,7 +162,7 @@ impl<T: Real> BoucWen<T> {
         })
     }
 
-    /// Runs a step of zeta and p in the frame of the input's direction.
+    /// Applies a step in zeta and p to eta and a change of the input.
     #[inline]
     fn along(&self, eta: T, input_change: T, step: impl Fn(T, T, T) -> T) -> T {
         if !input_change.is_finite() || input_change == T::zero() || eta.is_nan() {
@@ -169,11 +175,12 @@ impl<T: Real> BoucWen<T> {
         direction * crate::signal::clamp(next, zeta, one)
     }
 
-    /// The state after one increment, with the exact derivatives of this discrete step.
+    /// The state after an increment of the input [input unit], with the exact derivatives of this
+    /// discrete step.
     ///
-    /// For every `n` this is the state of the general step. It differs from the closed forms of
-    /// [`advance`](Self::advance) at `n = 1` and `n = 2` by the error of the general step. All
-    /// derivatives of a saturated state are zero.
+    /// This function does not use the closed forms for `n = 1` and `n = 2`. For these n, the
+    /// resulting eta differs from that of [`advance`](Self::advance) by the error of the general
+    /// step. In saturation, all derivatives are zero.
     #[inline]
     #[must_use]
     pub fn advance_with_sensitivity(
@@ -223,10 +230,10 @@ impl<T: Real> BoucWen<T> {
         }
     }
 
-    /// Slope of eta over the input [1/input unit], for the sign of `direction`.
+    /// Slope d(eta)/d(input) [1/input unit] in the direction given by the sign of `direction`.
     ///
-    /// The slope lies in `[0, rho·max(1, 2·sigma)]`. It is the right-hand side of (2) and (7)
-    /// divided by `x'`.
+    /// The slope lies in `[0, rho·max(1, 2·sigma)]`. This slope is the right-hand side of (2) and
+    /// (7) divided by `x'`.
     #[inline]
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {
@@ -240,10 +247,10 @@ impl<T: Real> BoucWen<T> {
         self.rho * law::f(zeta, self.c(), power)
     }
 
-    /// Advances by the input of one sample [input unit] and returns eta in [-1, 1].
+    /// Advances the state to the input of one sample [input unit], and returns eta in [-1, 1].
     ///
-    /// The first sample only sets the input. A sample that is not finite leaves the state
-    /// unchanged and returns the present eta.
+    /// The first sample only sets the input. A sample that is not finite leaves the state unchanged
+    /// and returns the current eta.
     #[inline]
     pub fn step(&self, state: &mut BoucWenState<T>, input: T) -> T {
         let mut change = input - state.input;
@@ -262,7 +269,7 @@ impl<T: Real> BoucWen<T> {
         state.eta
     }
 
-    /// The paths from one state in one direction: the sign of `direction`.
+    /// The paths from one state in the direction given by the sign of `direction`.
     #[inline]
     pub(crate) fn way(&self, eta: T, direction: T) -> Way<'_, T> {
         let direction = if direction < T::ZERO { -T::ONE } else { T::ONE };
@@ -280,15 +287,15 @@ impl<T: Real> BoucWen<T> {
         }
     }
 
-    /// How much faster unloading starts than loading, less one.
+    /// Ratio of the initial slopes of unloading and loading, minus one.
     #[inline]
     fn c(&self) -> T {
         self.constants.c
     }
 }
 
-/// The change that replaces an infinite one; none for a bad sample, and none for the first
-/// sample, which only sets the input.
+/// The change that replaces an infinite change. `None` for a bad sample, and for the first sample,
+/// which only sets the input.
 #[cold]
 fn unusual<T: Real>(state: &mut BoucWenState<T>, input: T) -> Option<T> {
     if !input.is_finite() {
@@ -302,8 +309,7 @@ fn unusual<T: Real>(state: &mut BoucWenState<T>, input: T) -> Option<T> {
     Some(if input < T::ZERO { -most } else { most })
 }
 
-/// The paths from one state in one direction, for a search over many lengths: the common part
-/// is computed once.
+/// The paths from one state in one direction. The part common to all lengths is computed once.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Way<'a, T> {
     shape: &'a BoucWen<T>,

@@ -1,12 +1,12 @@
-//! The state of the hysteresis, and the state with its derivatives.
+//! The state of the hysteresis, without and with its derivatives.
 
 use crate::error::finite;
 use crate::{Error, Real};
 
 /// State of the hysteresis: eta in [-1, 1], and the corresponding input.
 ///
-/// The configuration is [`BoucWen`](super::BoucWen); [`BoucWen::step`](super::BoucWen::step)
-/// advances the state. The state is `Copy`, so it can be saved, compared and restored.
+/// [`BoucWen::step`](super::BoucWen::step) advances the state. The state is `Copy`, so it can be
+/// saved and restored.
 ///
 /// ```
 /// use bowden::hysteresis::BoucWenState;
@@ -18,8 +18,8 @@ use crate::{Error, Real};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BoucWenState<T> {
     pub(super) eta: T,
-    /// Infinite before the first sample: the change to an infinity is NaN, and a step needs no
-    /// test for the first sample.
+    /// Infinite before the first sample. The change to the first sample is then not finite, so a
+    /// step needs no separate test for the first sample.
     pub(super) input: T,
 }
 
@@ -36,7 +36,8 @@ impl<T: Real> BoucWenState<T> {
     /// A state that starts at `eta`; the first sample only sets the input.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"eta"` outside [-1, 1].
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"eta"` if `eta` is not a number in [-1,
+    /// 1].
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         if finite(eta, "eta")?.abs() > T::one() {
             return Err(Error::OutOfRange("eta"));
@@ -49,8 +50,7 @@ impl<T: Real> BoucWenState<T> {
         self.eta
     }
 
-    /// Moves to an input and eta of the model, unless the path overflows; the model treats such a
-    /// path as the longest one. Returns the known input.
+    /// Sets the input and eta, unless the path overflows. Returns the stored input.
     #[inline]
     pub(crate) fn arrive(&mut self, input: T, eta: T) -> T {
         if (input - self.input).is_finite() {
@@ -60,7 +60,7 @@ impl<T: Real> BoucWenState<T> {
         self.input
     }
 
-    /// The last good input, `None` before the first sample.
+    /// The last good input, or `None` before the first good sample.
     pub fn input(&self) -> Option<T> {
         self.input.is_finite().then_some(self.input)
     }
@@ -97,9 +97,10 @@ crate::checked::stored_as! {
 }
 
 crate::data! {
-    /// The state eta with its derivatives with respect to the parameters and the initial state.
+    /// The state eta, and its derivatives with respect to the parameters and the initial state.
     ///
-    /// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances it.
+    /// [`BoucWen::advance_with_sensitivity`](super::BoucWen::advance_with_sensitivity) advances
+    /// this state.
     #[derive(Default)]
     pub struct Sensitivity<T> {
         /// The state, in [-1, 1].
@@ -116,7 +117,7 @@ crate::data! {
 }
 
 impl<T: Real> Sensitivity<T> {
-    /// The start of a record at `eta0`: all derivatives with respect to the parameters are zero.
+    /// The initial state `eta0`. Its derivatives with respect to the parameters are zero.
     #[inline]
     pub fn start(eta0: T) -> Self {
         let zero = T::zero();

@@ -1,4 +1,4 @@
-//! The terms of a curve through points.
+//! The terms of a piecewise linear curve.
 
 use super::{Source, Term};
 use crate::effect::{CurvePosition, CurveVelocity, Effect, Offset, Quantity};
@@ -6,13 +6,16 @@ use crate::error::finite;
 use crate::{Error, Real};
 
 impl<T: Real> Term<T> {
-    /// The terms of a piecewise linear [curve](crate::effect::CurvePosition) through the points `(x, f)`,
-    /// constant beyond its ends: an offset with the first f, and a segment between each two
+    /// The terms of a piecewise linear [curve](crate::effect::CurvePosition) through the points
+    /// `(x, f)`, which is constant beyond its ends.
+    ///
+    /// The first term is an offset equal to the first f. Each other term is the segment between two
     /// neighbouring points.
     ///
-    /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source; a curve over the
-    /// load has the load's channel as its source. x is in the unit of `over` and ascends, f is in
-    /// the unit of the output. A curve that is odd in the velocity needs points of both signs.
+    /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source. For a curve over
+    /// the load, use the load's channel as the source. Each x has the unit of `over`, and the
+    /// values of x must increase. Each f has the output unit. A curve that is odd in the velocity
+    /// needs points on both sides of zero.
     ///
     /// ```
     /// use bowden::effect::{Motion, Quantity};
@@ -30,9 +33,10 @@ impl<T: Real> Term<T> {
     /// ```
     ///
     /// # Errors
-    /// - [`Error::NonFinite`] if a number of the points, or the difference of two neighbours, is not
-    ///   finite.
-    /// - [`Error::OutOfRange`]: `width` if x does not ascend, `over` if it is another quantity.
+    /// - [`Error::NonFinite`] if a number of a point, or the difference between two neighbouring
+    ///   points, is not finite.
+    /// - [`Error::OutOfRange`] with `"width"` if x does not increase, or with `"over"` for any
+    ///   other quantity.
     pub fn curve<const N: usize>(
         over: Quantity,
         source: Source,

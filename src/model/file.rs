@@ -1,8 +1,7 @@
 //! Stored forms of a model, read and written without a heap.
 //!
-//! In a human-readable format a model has the form of a model file, schema `bowden.model/1`. In
-//! every other format it has the form of its [`Parts`]. Reading uses the constructors and their
-//! checks.
+//! In a human-readable format, a model has the schema `bowden.model/1`. In any other format it has
+//! the form of [`Parts`]. Reading calls the constructors, which check the values.
 
 use super::{Model, Source, Term};
 use crate::effect::{Effect, CATALOGUE};
@@ -16,10 +15,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 const SCHEMA: &str = "bowden.model/1";
 
-/// More shapes than any effect has.
+/// More shape parameters than any effect has.
 const MOST_SHAPES: usize = 4;
 
-/// As many channels as a [`Source::Channel`] can number.
+/// Largest number of channels, from the type of the index in [`Source::Channel`].
 const MOST_CHANNELS: usize = 256;
 
 /// The form of a model in a format without names.
@@ -114,7 +113,7 @@ texts! {
     };
 
     /// A name of any length, stored as 64 bits (FNV-1a): there is no room for the names of all
-    /// channels. Two channels with the same hash are refused, so they cannot be confused.
+    /// channels. Two channels with the same hash are an error, so they cannot be confused.
     #[derive(Clone, Copy, Default, PartialEq)]
     struct Name(u64) = "a name": |text| Some(hash(text));
 }
@@ -167,7 +166,7 @@ struct Shape<T> {
     value: T,
 }
 
-/// One term; `S` is its source.
+/// One term. `S` is the type of its source.
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
 #[serde(
     rename = "Term",
@@ -263,7 +262,7 @@ where
     Model::try_new(transmission, terms).map_err(D::Error::custom)
 }
 
-/// A source for output: a channel is named by its number.
+/// A source for output. The name of a channel contains its index.
 #[derive(Clone, Copy, Default)]
 struct Numbered(Option<u8>);
 

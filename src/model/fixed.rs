@@ -1,8 +1,8 @@
 //! A model whose effects are fixed at compile time.
 //!
-//! A [`Model`] can hold any effect, so the image contains the code of all effects. In a
-//! [`FixedModel`] the effects are types, so the image contains only these effects, and a step takes
-//! only their time. Both compute the same numbers, bit for bit.
+//! A [`Model`] can hold any effect, so a firmware image contains the code of all effects. A
+//! [`FixedModel`] has the types of its effects as parameters, so the image contains only the code
+//! of these effects. Both models give the same output, bit for bit.
 
 use super::{motion, Model, ModelState, Sample, Term};
 use crate::effect::{saturate, Effect, EffectState, Inputs, Motion, Quantity, Regressor, Stage};
@@ -10,7 +10,7 @@ use crate::error::{finite, rarely};
 use crate::transmission::Transmission;
 use crate::{Error, Real};
 
-/// A transmission plus the effects of a tuple of terms, each with its own type.
+/// A transmission plus a tuple of terms, each with the type of its effect.
 ///
 /// `N` is the number of terms, from 1 to 16. The state of a `FixedModel` is the [`ModelState`] of a
 /// [`Model`] with the same number of terms. A `FixedModel` treats bad samples as a `Model` does.
@@ -43,7 +43,7 @@ pub struct FixedModel<T, const N: usize, L> {
 }
 
 impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
-    /// Checks the terms' origins and gains; other constructors have checked the rest.
+    /// A model with this transmission and these terms.
     ///
     /// # Errors
     /// [`Error::NonFinite`] if an origin or a gain is not finite.
@@ -60,18 +60,17 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         self.transmission.as_ref()
     }
 
-    /// The effects with their gains.
+    /// The terms.
     pub fn terms(&self) -> &L {
         &self.terms
     }
 
-    /// The same model as a type that can hold any effects, for a
-    /// [`Compensator`](crate::control::Compensator) or a file.
+    /// The same model as a [`Model`], for a [`Compensator`](crate::control::Compensator) or a file.
     pub fn to_model(&self) -> Model<T, N> {
         Model::full(self.transmission, self.terms.any())
     }
 
-    /// Whether the model can use this sample; otherwise a step holds its output and state.
+    /// Whether the sample is good. A step ignores a bad sample.
     #[inline]
     #[must_use]
     pub fn accepts(&self, at: &Sample<T>) -> bool {
@@ -91,14 +90,14 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
 
     /// Advances by one sample and returns the predicted output.
     ///
-    /// A bad sample leaves the state unchanged and returns the last good output, 0 before the
-    /// first one.
+    /// A bad sample leaves the state unchanged and returns the last good output, or 0 before the
+    /// first good sample.
     #[inline]
     pub fn step(&self, state: &mut ModelState<T, N>, at: &Sample<T>) -> T {
         self.step_with(state, at, |_, _| {})
     }
 
-    /// The same step, which also reports each term's contribution to the output, as
+    /// Like [`step`](Self::step), but also reports the contribution of each term to the output, as
     /// [`Model::step_with`] does.
     #[inline]
     pub fn step_with(
@@ -133,12 +132,12 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
     }
 }
 
-/// The sum to which the terms of one sample add.
+/// The running sum of the terms at one sample.
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct Sum<'a, 's, T, const N: usize> {
     at: &'a Sample<'s, T>,
-    /// The data of each term, by its source.
+    /// The motion of each term's source.
     motions: [&'a Motion<T>; N],
     time: T,
     eta: T,
@@ -153,15 +152,15 @@ pub trait Terms<T, const N: usize>: sealed::Sealed {
     fn check(&self) -> Result<(), Error>;
     #[doc(hidden)]
     fn any(&self) -> [Term<T>; N];
-    /// The data of each term; `None` if a channel is missing.
+    /// The motion of each term's source, or `None` if a channel is missing.
     #[doc(hidden)]
     fn motions<'a>(&self, at: &'a Sample<T>) -> Option<[&'a Motion<T>; N]>;
     #[doc(hidden)]
     fn nothing(&self, at: &Sample<T>, motions: &[&Motion<T>; N]) -> T;
-    /// The input after the input stages.
+    /// The input of the transmission, after the input stages.
     #[doc(hidden)]
     fn moved(&self, memories: &mut [EffectState<T>; N], sum: &Sum<T, N>) -> T;
-    /// Adds the terms of the sum, in their order; the output is finite after it.
+    /// Adds the terms that are not stages, in order. The output is then finite.
     #[doc(hidden)]
     fn add(
         &self,
@@ -169,7 +168,7 @@ pub trait Terms<T, const N: usize>: sealed::Sealed {
         sum: &mut Sum<T, N>,
         share: &mut impl FnMut(usize, T),
     );
-    /// Adds the output stages, in their order: each reads the output of the stages before it.
+    /// Adds the output stages, in order. Each reads the output of the stages before it.
     #[doc(hidden)]
     fn correct(
         &self,
@@ -198,7 +197,7 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         }
     }
 
-    /// Zero times all data that the term reads of the sample.
+    /// Zero times all data of the sample that the term reads.
     #[inline]
     fn nothing(&self, at: &Sample<T>, motion: &Motion<T>) -> T {
         let read = |sum: T, quantity: &Quantity| {
@@ -234,7 +233,7 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
         }
     }
 
-    /// The share of the term, saturated.
+    /// The contribution of the term, saturated.
     #[inline]
     fn part<const N: usize>(
         &self,
@@ -247,8 +246,8 @@ impl<T: Real, E: Regressor<T> + Copy + Into<Effect<T>>> Term<T, E> {
     }
 }
 
-/// An output with a gain times a value added, saturated after each operation; the value becomes
-/// the part.
+/// The output plus gain times value, saturated after each operation. `value` becomes the
+/// contribution.
 #[cold]
 #[inline(never)]
 fn saturated_with<T: Real>(output: T, gain: T, value: &mut T) -> T {
@@ -256,7 +255,8 @@ fn saturated_with<T: Real>(output: T, gain: T, value: &mut T) -> T {
     saturated(saturated(output) + *value)
 }
 
-/// [`saturate`] for rare cases: one copy in an image, not three per term.
+/// [`saturate`] for rare cases. A firmware image contains one copy of this function, not three per
+/// term.
 #[cold]
 #[inline(never)]
 fn saturated<T: Real>(value: T) -> T {

@@ -20,7 +20,7 @@ crate::checked::stored! {
         #[serde(serialize_with = "crate::list::serialize", deserialize_with = "crate::list::padded")]
         pub(crate) effects: [EffectState<T>; N],
         pub(super) started: bool,
-        /// Compensated: dt is far below it.
+        /// A compensated sum, because dt is much smaller than the time.
         pub(super) time: Compensated<T>,
         pub(super) output: T,
     }
@@ -32,10 +32,10 @@ impl<T: Real, const N: usize> ModelState<T, N> {
         Self::from_hysteresis(BoucWenState::new())
     }
 
-    /// A new state with an identified initial hysteresis state.
+    /// A new state that starts at the hysteresis state `eta`.
     ///
     /// # Errors
-    /// Those of [`BoucWenState::with_eta`]: `eta` is not finite or lies outside −1 to 1.
+    /// The same as [`BoucWenState::with_eta`], if `eta` is not a number in [-1, 1].
     pub fn with_eta(eta: T) -> Result<Self, Error> {
         BoucWenState::with_eta(eta).map(Self::from_hysteresis)
     }
@@ -50,22 +50,22 @@ impl<T: Real, const N: usize> ModelState<T, N> {
         }
     }
 
-    /// The hysteresis state, within ±1.
+    /// The hysteresis state, in [-1, 1].
     pub fn eta(&self) -> T {
         self.hysteresis.eta()
     }
 
-    /// Time since the first good sample \[s\]; bad samples do not count.
+    /// Time since the first good sample \[s\], without the time of bad samples.
     pub fn time(&self) -> T {
         self.time.value
     }
 
-    /// The last good output, 0 before the first one.
+    /// The last good output, or 0 before the first good sample.
     pub fn output(&self) -> T {
         self.output
     }
 
-    /// Adds dt, compensated: at 1 kHz a plain `f32` clock would stop after hours.
+    /// Adds dt to a compensated sum. At 1 kHz, a plain `f32` clock would stop after hours.
     pub(super) fn tick(&mut self, dt: T) {
         if !self.started {
             self.started = true;

@@ -1,4 +1,4 @@
-//! A second-order low-pass and a notch.
+//! A second-order low-pass filter and a notch filter.
 
 use super::Compensated;
 use crate::error::above_zero;
@@ -7,36 +7,35 @@ use crate::{Error, Real};
 
 mod prewarped;
 
-/// Second-order section: a low-pass or a notch, for a target, an error or a measurement.
+/// Second-order filter: a low-pass or a notch.
 ///
-/// With `s` in units of `2π·frequency`, and with `q` as the quality factor:
+/// With `s` in units of `2π·frequency` and the quality factor `q`, the transfer functions are:
 ///
 /// ```text
 /// low-pass  1/(s² + s/q + 1)       q = 1/√2: Butterworth; q = 1/2: critically damped
 /// notch     (s² + 1)/(s² + s/q + 1)   −3 dB width: frequency/q
 /// ```
-/// Both filters have a gain of exactly 1 at zero frequency: the output reaches a constant input to
-/// the last bit.
+/// Both filters have a gain of 1 at zero frequency, and the output reaches a constant input to the
+/// last bit.
 ///
-/// **Design.** The filter uses the bilinear transform with prewarping at the given sample time `T`.
-/// At `f` \[Hz\] the filter has the above response at `s = i·tan(π·f·T)/tan(π·frequency·T)`, so
-/// `frequency` itself is exact. `dt` may vary: each step integrates over its own `dt` with the
-/// trapezoidal rule, and prewarps as for `T`. A `dt` of `(1 + e)·T` moves the corner by less than
-/// `|e|·(π·frequency·T)²` of itself, to first order in `e`.
+/// **Design.** The filter uses the bilinear transform, prewarped for the sample time `T`. Its
+/// response at `f` \[Hz\] is the transfer function at `s = i·tan(π·f·T)/tan(π·frequency·T)`. The
+/// response at `frequency` is therefore exact. `dt` may vary: each step integrates over its own
+/// `dt` with the trapezoidal rule, with the prewarping for `T`. If `dt` is `(1 + e)·T`, the
+/// relative error of the corner frequency is less than `|e|·(π·frequency·T)²`, to first order in
+/// `e`.
 ///
 /// **Form.** The filter is a state-variable filter with trapezoidal integrators (A. Simper,
-/// *Solving the continuous SVF equations using trapezoidal integration*, 2013). It has the same
-/// transfer function as the direct forms. Direct forms store `1 − frequency²·…` in coefficients
-/// near 2, and in `f32` lose the corner below 1/1000 of the sample rate. Here the coefficients
-/// are proportional to `frequency`, and the integrators are compensated sums. Test
-/// `a_low_corner_needs_this_form_in_single_precision` in `tests/signal/filters.rs` compares
-/// both forms.
+/// *Solving the continuous SVF equations using trapezoidal integration*, 2013). In contrast to a
+/// direct form, it remains accurate in `f32` for a corner below 1/1000 of the sample rate
+/// (`tests/signal/filters.rs`).
 ///
-/// **Bounds.** At a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
-/// grows, for any sequence of `dt`. The output stays within `|low − c|` of the start. From rest, at
-/// a constant `dt` of the design, the output is limited to a multiple of the largest sample:
-/// `2 + 4·q/π` for a low-pass and 3 for a notch. These factors are the sum of the magnitudes of the
-/// impulse response, on a grid of `frequency` and `q` in `tests/signal/filters.rs`.
+/// **Bounds.** For a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
+/// increases, for any sequence of `dt`. The output of a low-pass that starts at rest is therefore
+/// never further from `c` than at the start. The following limits apply to a start from rest with
+/// `dt` equal to the sample time. The output of a low-pass is at most `2 + 4·q/π` times the largest
+/// sample, and the output of a notch is at most 3 times the largest sample. These limits were
+/// computed on a grid of `frequency` and `q` (`tests/signal/filters.rs`).
 ///
 /// ```
 /// use bowden::signal::{Biquad, BiquadState};
@@ -55,7 +54,7 @@ mod prewarped;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Biquad<T> {
     design: Design<T>,
-    /// `tan(π·frequency·T)/T`: times dt, the gain of an integrator.
+    /// `tan(π·frequency·T)/T`. Multiplied by dt, it is the gain of an integrator.
     slope: T,
     /// `1/q`
     damping: T,
@@ -82,9 +81,9 @@ crate::checked::stored! {
     #[derive(Default)]
     pub struct BiquadState<T> {
         value: Option<T>,
-        /// The integrator of the band-pass: zero at rest.
+        /// The integrator of the band-pass, which is zero at rest.
         band: Compensated<T>,
-        /// The integrator of the low-pass: the input, at rest.
+        /// The integrator of the low-pass, which is the input at rest.
         low: Compensated<T>,
     }
 }
@@ -111,13 +110,14 @@ crate::checked! {
         Ok(Biquad { design, slope, damping })
     }
 
-    /// A low-pass with its corner at `frequency` \[Hz\], for samples every `sample_time` \[s\].
+    /// A low-pass with its corner at `frequency` \[Hz\], for a sampling period of
+    /// `sample_time` \[s\].
     ///
-    /// All three must be above zero, and `frequency` must be below half the sample rate. At
-    /// `frequency` the gain is `q` and the phase is −90°. A `q` above `1/√2` gives a resonance.
+    /// All three arguments must be positive, and `frequency` must be below half the sample rate. At
+    /// `frequency`, the gain is `q` and the phase is −90°. A `q` above `1/√2` gives a resonance.
     ///
-    /// The tangent of the prewarping is computed in `f64`. On a microcontroller without `f64`
-    /// hardware, [`constant!`](crate::constant) avoids that code.
+    /// The prewarping is computed in `f64`. On a microcontroller without `f64` hardware, use
+    /// [`constant!`](crate::constant) to avoid this code.
     ///
     /// ```
     /// use bowden::constant;
@@ -136,11 +136,11 @@ crate::checked! {
         designed(Design { response, frequency, q, sample_time })
     }
 
-    /// A notch at `frequency` \[Hz\], `frequency/q` \[Hz\] wide, for samples every `sample_time`
-    /// \[s\].
+    /// A notch at `frequency` \[Hz\] with a width of `frequency/q` \[Hz\], for a sampling period of
+    /// `sample_time` \[s\].
     ///
-    /// All three must be above zero, and `frequency` must be below half the sample rate. The width
-    /// is the distance between the two frequencies with a gain of `1/√2`.
+    /// All three arguments must be positive, and `frequency` must be below half the sample rate.
+    /// The width is the distance between the two frequencies with a gain of `1/√2`.
     ///
     /// # Errors
     /// The same as [`low_pass`](Self::low_pass).
@@ -153,10 +153,10 @@ crate::checked! {
 impl<T: Real> Biquad<T> {
     /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
-    /// The first good sample starts the filter at rest: the output is that sample. A bad sample
-    /// (not finite, or a `dt` that is not positive and finite) leaves the state unchanged. It
-    /// returns the last output, zero before the first good sample. If the next state would
-    /// overflow, the filter restarts at the sample.
+    /// The filter starts at rest at the first good sample, and the output is then that sample. A
+    /// sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
+    /// leaves the state unchanged and returns the last output, or zero before the first good
+    /// sample. If the next state would overflow, the filter restarts at rest at the sample.
     #[inline]
     pub fn step(&self, state: &mut BiquadState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() && dt.is_finite() && dt > T::ZERO {
@@ -232,7 +232,7 @@ impl<T: Real> BiquadState<T> {
         self.value.unwrap_or(T::ZERO)
     }
 
-    /// As [`Finite`](crate::checked::Finite), in fewer instructions.
+    /// The same as [`Finite`](crate::checked::Finite), in fewer instructions.
     #[inline]
     fn is_finite(&self) -> bool {
         let integrators = self.band.value.is_finite() && self.low.value.is_finite();

@@ -2,10 +2,9 @@
 
 use crate::Real;
 
-/// `x` within `[low, high]`; NaN stays NaN.
+/// Clamps `x` to `[low, high]`. NaN stays NaN.
 ///
-/// `x.max(low).min(high)` turns NaN into a limit, which looks like a valid command. If
-/// `low > high`, `x` below `low` gives `low`; otherwise `x` above `high` gives `high`.
+/// If `low > high`, the result is `low` for `x < low`, otherwise `high` for `x > high`.
 ///
 /// ```
 /// use bowden::signal::clamp;
@@ -25,7 +24,7 @@ pub fn clamp<T: Real>(x: T, low: T, high: T) -> T {
     }
 }
 
-/// `x` clamped to `[low, high]`; for NaN the value there nearest to zero.
+/// Clamps `x` to `[low, high]`. For NaN, the result is the value in this range nearest to zero.
 #[inline]
 pub(crate) fn confined<T: Real>(x: T, low: T, high: T) -> T {
     let known = if x.is_nan() { T::ZERO } else { x };
@@ -52,7 +51,7 @@ pub(crate) fn greatest<T: Real>(a: T, b: T) -> T {
     }
 }
 
-/// A difference on a circle of this period, along the shorter way round: within half a period.
+/// A difference on a circle with this period, along the shorter arc: at most half a period.
 #[inline]
 pub(crate) fn wrapped<T: Real>(difference: T, period: T) -> T {
     // A float of 1.5/epsilon has no room for a fraction: the sum rounds to whole turns.

@@ -1,4 +1,4 @@
-//! A sum with compensation of rounding errors.
+//! Compensated summation.
 
 use super::clamp;
 use crate::error::rarely;
@@ -7,14 +7,15 @@ use crate::Real;
 crate::checked::stored! {
     /// A running sum with the rounding error of its last addition.
     ///
-    /// Integrals and estimates move by a small increment each sample. In `f32` an increment below half
-    /// an ulp of the sum would have no effect. Example: a leakage of 0.001/s at 20 kHz moves an
-    /// estimate by 5e-8 of itself, but the resolution of `f32` is 6e-8.
+    /// Integrals and estimates change by a small increment in each sample. In an `f32` sum, an
+    /// increment below half an ulp of the sum would have no effect. For example, a leakage of
+    /// 0.001/s at 20 kHz changes an estimate by the fraction 5e-8, but the resolution of `f32` is
+    /// 6e-8.
     #[derive(Default)]
     pub(crate) struct Compensated<T> {
         /// The sum.
         pub(crate) value: T,
-        /// The carry (rounding error): it is added together with the next increment.
+        /// The carry (rounding error), which is added together with the next increment.
         pub(crate) carry: T,
     }
     => {
@@ -39,7 +40,7 @@ impl<T: Real> Compensated<T> {
         Self { value, carry }
     }
 
-    /// The sum clamped to `[low, high]`; at a limit the carry is zero.
+    /// The sum, clamped to `[low, high]`. At a limit, the carry is zero.
     ///
     /// The carry of a sum that overflowed is NaN, and stays NaN.
     #[inline]
@@ -56,7 +57,7 @@ impl<T: Real> Compensated<T> {
     }
 }
 
-/// A sum and its rounding error, exact for any order of magnitudes (D. Knuth, *The Art of
+/// A sum and its exact rounding error, whatever the order of the magnitudes (D. Knuth, *The Art of
 /// Computer Programming*, vol. 2, 4.2.2, Theorem B).
 #[inline]
 pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {

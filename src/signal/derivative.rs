@@ -4,11 +4,11 @@ use crate::error::{not_below_zero, rarely};
 use crate::{Error, Real};
 
 crate::checked::stored! {
-    /// First-order filtered derivative with a time constant \[s\].
+    /// Derivative with a first-order filter.
     ///
-    /// `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient, filtered by the first-order
-    /// lag in its implicit (backward Euler) form. This form is stable for any `dt` and needs no
-    /// exponential. `dt` may vary. The rate starts at zero with the first sample, without a kick.
+    /// The rate `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient through a
+    /// first-order lag in its backward Euler form. This form is stable for any `dt`, which may
+    /// vary. The rate is zero at the first sample, so there is no derivative kick.
     ///
     /// ```
     /// use bowden::signal::{Derivative, DerivativeState};
@@ -42,7 +42,7 @@ crate::checked::stored! {
 crate::checked! {
     Derivative<T>;
 
-    /// A derivative with `time_constant >= 0` \[s\]; zero means no filter.
+    /// A derivative with `time_constant >= 0` \[s\]. With zero there is no filter.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -53,7 +53,7 @@ crate::checked! {
 }
 
 impl<T: Real> Derivative<T> {
-    /// The same for a time constant that is already checked.
+    /// The same as [`try_new`](Self::try_new), for a time constant that is already checked.
     #[inline]
     pub(crate) const fn assumed(time_constant: T) -> Self {
         Self { time_constant }
@@ -64,7 +64,7 @@ impl<T: Real> Derivative<T> {
     /// A sample is bad if it is not finite, if `dt` is not positive and finite, or if the result
     /// overflows. A bad sample leaves the state unchanged and returns the last rate. The state does
     /// not store the time of a bad sample. Add this time to the `dt` of the next good sample, as
-    /// [`Rates`](crate::signal::Rates) does; otherwise the computed rate of a moving signal is too
+    /// [`Rates`](crate::signal::Rates) does. Otherwise, the computed rate of a moving signal is too
     /// large.
     #[inline]
     pub fn step(&self, state: &mut DerivativeState<T>, sample: T, dt: T) -> T {
@@ -74,7 +74,7 @@ impl<T: Real> Derivative<T> {
         state.rate
     }
 
-    /// The same for a finite sample.
+    /// The same as [`step`](Self::step), for a finite sample.
     #[inline]
     pub(crate) fn follow(&self, state: &mut DerivativeState<T>, sample: T, dt: T) {
         let Some(last) = state.last else {
@@ -93,8 +93,8 @@ impl<T: Real> Derivative<T> {
         }
     }
 
-    /// The filtered rate after the signal has moved by `change` in `dt > 0`. The rate stays
-    /// unchanged if `dt` is the highest float, which means an unknown time.
+    /// The filtered rate after a change of the signal by `change` in `dt > 0`. If `dt` is the
+    /// highest float, which means an unknown time, the rate does not change.
     #[inline]
     pub(crate) fn after(&self, rate: T, change: T, dt: T) -> T {
         if dt < T::HIGHEST {
@@ -111,7 +111,7 @@ impl<T: Real> Derivative<T> {
 }
 
 impl<T: Real> DerivativeState<T> {
-    /// A state that starts at rate zero with the first good sample.
+    /// A new state, before the first sample.
     #[inline]
     pub const fn new() -> Self {
         Self {
@@ -130,8 +130,8 @@ impl<T: Real> DerivativeState<T> {
         }
     }
 
-    /// Whether steps can lead to this state: a last sample that is not finite would hold the
-    /// rate indefinitely.
+    /// Whether steps can lead to this state. A last sample that is not finite would hold the rate
+    /// indefinitely.
     pub(crate) fn is_finite(&self) -> bool {
         self.rate.is_finite() && self.last.is_none_or(T::is_finite)
     }

@@ -1,4 +1,4 @@
-//! Velocity of a slow encoder, from the time between its counts.
+//! Velocity of a slow encoder from the time between its counts.
 
 use super::{clamp, RateStatus};
 use crate::error::above_zero;
@@ -6,37 +6,37 @@ use crate::fault::{fault_of_dt, Fault};
 use crate::{Error, Real};
 
 crate::checked::stored! {
-    /// Velocity from the time between counts: period measurement, or M/T method.
+    /// Velocity from the time between counts (period measurement or M/T method).
     ///
-    /// If a counter changes less than once per sample, its difference quotient is zero or a whole count
-    /// per `dt`. Between two samples with counts, the axis has moved by M counts in a time T, which is
-    /// known to one `dt`:
+    /// If a counter changes less than once per sample, its difference quotient is either zero or
+    /// one count per `dt`. Instead, this type uses the number M of counts and the time T between
+    /// two samples with counts, which is known to one `dt`:
     ///
     /// ```text
     /// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
     /// |v| ≤ count/(time since the last count)     at every other sample
     /// ```
-    /// * **Error** at a constant speed of `f` counts per second: the relative error is at most
-    ///   `f·dt/(1 − f·dt)` while `f·dt < 1` (one sample in the time of one count). At any speed it
-    ///   is at most `dt/tau·min(1, 1/(f·dt))`. Reason: the linearly interpolated counter is nowhere
-    ///   further than `min(1, f·dt)` of a count from the axis, and the lag divides this distance by
-    ///   tau.
-    /// * **Delay** of slow changes at a count: `T·(1/2 + q/(1 − q))` with `q = e^(−T/tau)`. This is
-    ///   half the time between counts if that time is longer than tau, and tau at high speed. Until
-    ///   the next count the velocity is held, on average for a further `T/2`.
-    /// * **Stop**: the bound falls as `count/t`. After `longest_gap` without a count the velocity
-    ///   is zero and the status is [`RateStatus::Stopped`]. Speeds below `count/longest_gap` read
-    ///   as stopped.
-    /// * **Reversal**: a count in the opposite direction passes the same encoder line as the previous
-    ///   count. The axis has therefore moved by one count less. Dither of one count gives zero
+    /// * **Error**: at a constant speed of `f` counts per second, the relative error is at most
+    ///   `f·dt/(1 − f·dt)` if `f·dt < 1` (at least one sample per count). At any speed, it is at
+    ///   most `dt/tau·min(1, 1/(f·dt))`.
+    /// * **Delay**: at a count, slow changes have a delay of `T·(1/2 + q/(1 − q))` with
+    ///   `q = e^(−T/tau)`. This delay is about `T/2` at low speed and tau at high speed. Until the
+    ///   next count the velocity is held, which adds `T/2` on average.
+    /// * **Stop**: without a count, the bound on the velocity falls with time. After `longest_gap`
+    ///   without a count, the velocity is zero and the status is [`RateStatus::Stopped`]. A speed
+    ///   below `count/longest_gap` therefore counts as a stop.
+    /// * **Reversal**: after a reversal, the first count passes the same encoder line as the
+    ///   previous count, so the axis has moved by one count less. Dither of one count gives zero
     ///   velocity.
-    /// * **Start**: the first count only locates a line; the second count gives the first velocity.
-    /// * **Bad samples** do not change the velocity. Their time counts. After a `dt` that is
-    ///   negative or not finite the time is unknown, and the next count starts a new interval.
+    /// * **Start**: the first count only locates a line. The second count gives the first velocity.
+    /// * **Bad samples**: a bad sample does not change the velocity, but its `dt` is included in T.
+    ///   After a `dt` that is negative or not finite, the time is unknown, and the next count
+    ///   starts a new interval.
     ///
     /// Source: T. Ohmae et al., *A microprocessor-controlled high-accuracy wide-range speed
-    /// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method). Use
-    /// [`Rates`](super::Rates) for positions that change in every sample.
+    /// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method).
+    ///
+    /// Use [`Rates`](super::Rates) for positions that change in every sample.
     ///
     /// ```
     /// use bowden::signal::{RateStatus, EdgeVelocity, EdgeVelocityState};
@@ -78,13 +78,13 @@ crate::data! {
 }
 
 crate::checked::stored! {
-    /// State of an [`EdgeVelocity`]: the last position, its last count and the velocity.
+    /// State of an [`EdgeVelocity`]: the last position, the last count and the velocity.
     #[derive(Default)]
     pub struct EdgeVelocityState<T> {
         last: Option<T>,
-        /// Whether the last count went up; none before the first one.
+        /// Whether the last count increased the position; `None` before the first count.
         went_up: Option<bool>,
-        /// Time since the last count, as far as it is known.
+        /// Known time since the last count.
         gap: T,
         /// Whether an additional unknown time has passed.
         time_unknown: bool,
@@ -95,10 +95,11 @@ crate::checked::stored! {
 crate::checked! {
     EdgeVelocity<T>;
 
-    /// Velocity from positions that move by `count` \[channel unit\] or by multiples of it.
+    /// Velocity from positions that change by multiples of `count` \[channel unit\].
     ///
-    /// Counts that come faster than `time_constant` \[s\] are averaged. A time of `longest_gap`
-    /// \[s\] without a count means a stop. All three must be above zero.
+    /// The velocity is averaged over `time_constant` \[s\] if several counts occur in this time. A
+    /// time of `longest_gap` \[s\] without a count means a stop. All three arguments must be
+    /// positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or
@@ -111,8 +112,8 @@ crate::checked! {
         Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
-    /// The same configuration for positions modulo `period > 0` \[channel unit\], such as the
-    /// positions of a counter.
+    /// The same configuration for positions modulo `period > 0` \[channel unit\], such as those of
+    /// a counter.
     ///
     /// Between two good samples the axis must move by less than half a period.
     ///
@@ -126,10 +127,11 @@ crate::checked! {
 }
 
 impl<T: Real> EdgeVelocity<T> {
-    /// The velocity \[channel unit/s\] at a `position` measured `dt` \[s\] after the last call.
+    /// The velocity \[channel unit/s\] at a `position` \[channel unit\] measured `dt` \[s\] after
+    /// the last call.
     ///
-    /// `dt` is the time since the last call, whether that sample was good or bad. If the distance
-    /// of a position from the last one overflows, the measurement restarts.
+    /// `dt` is the time since the last call, even if the last sample was bad. If the distance from
+    /// the last position overflows, the measurement restarts.
     #[inline]
     pub fn step(
         &self,
@@ -173,7 +175,7 @@ impl<T: Real> EdgeVelocity<T> {
         }
     }
 
-    /// No count: the bound falls, down to a stop.
+    /// No count: the bound on the velocity falls until the axis counts as stopped.
     #[inline]
     fn without_count(&self, state: &mut EdgeVelocityState<T>) -> RateStatus {
         if state.gap > self.longest_gap {
@@ -187,7 +189,7 @@ impl<T: Real> EdgeVelocity<T> {
         state.known()
     }
 
-    /// One count or several, `moved` in all.
+    /// One or more counts with the total change `moved`.
     #[inline]
     fn at_count(&self, state: &mut EdgeVelocityState<T>, moved: T) -> RateStatus {
         let goes_up = moved > T::ZERO;
@@ -219,7 +221,7 @@ impl<T: Real> EdgeVelocity<T> {
         RateStatus::Good
     }
 
-    /// A difference of two positions, reduced by whole periods to the shortest.
+    /// The shortest difference of two positions modulo the period.
     #[inline]
     fn moved(&self, difference: T) -> T {
         match self.period {

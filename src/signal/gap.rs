@@ -3,10 +3,9 @@
 use super::clamp;
 use crate::Real;
 
-/// The time since the last good sample, one sample of `dt` later.
+/// The time since the last good sample, after another sample of `dt`.
 ///
-/// The highest float means an unknown time (`dt` is negative, too long, or not finite): the
-/// rate of a signal over this time is unknown.
+/// The highest float means an unknown time, because `dt` is negative, too long or not finite.
 pub(crate) fn gap_after<T: Real>(gap: T, dt: T, longest: T) -> T {
     if dt >= T::ZERO && dt <= longest {
         clamp(gap + dt, T::ZERO, T::HIGHEST)

@@ -5,16 +5,16 @@ use crate::error::not_below_zero;
 use crate::{Error, Real};
 
 crate::checked::stored! {
-    /// First-order low-pass with a time constant \[s\].
+    /// First-order low-pass filter.
     ///
-    /// `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its implicit (backward Euler)
-    /// form. It is stable at any `dt`, which may vary, and needs no exponential. The corner is
-    /// `1/(2π·tau)` \[Hz\], to `dt/tau`. Slow signals have a delay of tau and a gain of 1.
+    /// The output `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its backward
+    /// Euler form. This form is stable for any `dt`, which may vary. The corner is at
+    /// `1/(2π·tau)` \[Hz\], with a relative error of the order of `dt/tau`. For slow signals, the
+    /// delay is tau and the gain is 1.
     ///
-    /// The first good sample starts the filter at rest: the output is that sample. The output leaves
-    /// the range of the samples only through rounding. The output is a compensated sum. A plain
-    /// `f32` lag stops once its increment is less than half a unit in the last place. With a tau of
-    /// 1000·dt it would stop up to 3e-5 of the target away from it.
+    /// The filter starts at rest at the first good sample, and the output is then that sample.
+    /// Except for rounding errors, the output stays within the range of the samples. The output is
+    /// a compensated sum, so it reaches a constant input even in `f32`.
     ///
     /// For a second-order filter, see [`Biquad`](super::Biquad).
     ///
@@ -39,7 +39,7 @@ crate::checked::stored! {
 }
 
 crate::checked::stored! {
-    /// State of a [`LowPass`]: its output, empty before the first good sample.
+    /// State of a [`LowPass`]: its output, if there was a good sample.
     #[derive(Default)]
     pub struct LowPassState<T> {
         sum: Option<Compensated<T>>,
@@ -49,7 +49,7 @@ crate::checked::stored! {
 crate::checked! {
     LowPass<T>;
 
-    /// A low-pass with `time_constant >= 0` \[s\]; with zero the output is the sample.
+    /// A low-pass with `time_constant >= 0` \[s\]. With zero, the output is the sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -62,9 +62,10 @@ crate::checked! {
 impl<T: Real> LowPass<T> {
     /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
-    /// A bad sample (not finite, or a `dt` that is not positive and finite) leaves the state
-    /// unchanged. It returns the last output, zero before the first good sample. If the
-    /// difference between a sample and the output overflows, the filter restarts at rest.
+    /// A sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
+    /// leaves the state unchanged and returns the last output, or zero before the first good
+    /// sample. If the difference between a sample and the output overflows, the filter restarts at
+    /// rest at the sample.
     #[inline]
     pub fn step(&self, state: &mut LowPassState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() && dt.is_finite() && dt > T::ZERO {

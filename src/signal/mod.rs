@@ -11,8 +11,8 @@
 //! | [`Rates`] | [`Motion`](crate::effect::Motion) (position, velocity, acceleration) from the positions of a sensor |
 //! | [`EdgeVelocity`] | velocity from an encoder with few counts per sample |
 //!
-//! Configuration and state are separate types. After construction, nothing returns an error and
-//! nothing panics. [`constant!`](crate::constant) makes a `static` of every configuration.
+//! Configuration and state are separate types. Only constructors return errors, and no function
+//! panics. [`constant!`](crate::constant) makes a `static` of any configuration.
 
 mod biquad;
 mod clamp;

@@ -1,16 +1,16 @@
-//! Plausibility of a finite reading: its range, its rate, and whether it is stuck.
+//! Plausibility check of a sensor: range, rate of change and stuck value.
 
 use super::gap::gap_after;
 use crate::error::{above_zero, ordered};
 use crate::{Error, Real};
 
 crate::checked::stored! {
-    /// Plausibility check of a sensor: range, rate limit and stuck value.
+    /// Plausibility check of a sensor: range, rate of change and stuck value.
     ///
-    /// A controller rejects NaN by itself, but cannot detect a finite and wrong reading: an encoder
-    /// that was reset, a shorted bridge, or a bus that repeats its last frame. Put a `Plausible` in
-    /// front of each input. It turns an implausible sample into NaN, and the controller then holds
-    /// its command and counts a bad sample.
+    /// A controller rejects NaN, but cannot detect a finite reading that is wrong. Examples are an
+    /// encoder that was reset, a shorted strain-gauge bridge, and a bus that repeats its last
+    /// frame. Use a `Plausible` upstream of each input of the controller. It replaces an
+    /// implausible sample by NaN, so the controller holds its command and counts a bad sample.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -45,7 +45,7 @@ crate::checked::stored! {
 }
 
 crate::data! {
-    /// Why a sample is implausible.
+    /// The reason why a sample is implausible.
     #[derive(Eq, Hash)]
     #[non_exhaustive]
     pub enum Implausible {
@@ -53,9 +53,9 @@ crate::data! {
         NotFinite,
         /// The sample lies outside the range.
         OutOfRange,
-        /// The sample is further from the last plausible sample than the rate allows.
+        /// The difference from the last plausible sample is larger than the rate allows.
         TooFast,
-        /// The sample has kept the same value for too long while the machine moved.
+        /// The value has been the same for too long while the machine moved.
         Stuck,
     }
 }
@@ -66,17 +66,16 @@ crate::data! {
 pub struct PlausibleOutput<T> {
     /// The sample if it is plausible, otherwise NaN.
     pub value: T,
-    /// Why the sample is implausible, if it is.
+    /// The reason, if the sample is implausible.
     pub fault: Option<Implausible>,
 }
 
 crate::checked::stored! {
-    /// State of a [`Plausible`]: the last plausible sample, and its age.
+    /// State of a [`Plausible`]: the last plausible sample and its age.
     #[derive(Default)]
     pub struct PlausibleState<T> {
         last: Option<T>,
-        /// Time in which the signal may have moved since the measurement of `last`, up to the last
-        /// checked sample \[s\].
+        /// Time from the measurement of `last` to the last checked sample \[s\].
         gap: T,
         same: u32,
     }
@@ -85,7 +84,7 @@ crate::checked::stored! {
 crate::checked! {
     Plausible<T>;
 
-    /// Samples within `low..=high` \[signal unit\], at any rate.
+    /// A check that accepts samples within `low..=high` \[signal unit\], at any rate of change.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"low"` or `"high"`; [`Error::Inadmissible`] unless
@@ -96,27 +95,27 @@ crate::checked! {
         Ok(Plausible { low, high, rate, sample_period, stuck_after, longest_dt })
     }
 
-    /// The same check with a rate limit: the signal moves by at most `rate` \[signal unit/s\],
-    /// above zero.
+    /// The same check with a positive limit `rate` \[signal unit/s\] on the rate of change.
     ///
-    /// Do not use a rate limit for an angle that wraps: each wrap is too fast. Instead, check the
-    /// range of the velocity from [`Rates`](crate::signal::Rates), which knows the period.
+    /// Do not use a rate limit for an angle that wraps around, because the check would reject each
+    /// wrap. Instead, check the range of the velocity from [`Rates`](crate::signal::Rates) with its
+    /// period.
     ///
-    /// A sensor may be slower than the loop, so a repeated reading counts as the same measurement,
-    /// whose age grows. The next reading may differ by `rate` times the time since the last
-    /// *change*. A correct sensor therefore never exceeds the rate, even if it repeats each reading
-    /// several times. After a reading has repeated for `t` seconds, the check accepts a spike of up
-    /// to `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`, as after
-    /// any gap. [`with_sample_period`](Self::with_sample_period) bounds the spike and this time.
-    /// Set it for a sensor whose readings repeat while the signal rests (an encoder), and for a
-    /// sensor that is not synchronous with the loop.
+    /// A sensor may be slower than the loop, so a repeated reading counts as the same measurement.
+    /// The next reading may differ by `rate` times the time since the last *change*.
     ///
-    /// During a gap the permitted distance grows with time. If a signal has really moved, the check
-    /// accepts it after the time `distance/rate`, rounded up to the next sample. After this time it
-    /// also accepts the new position of an encoder that was reset: [`Rates`](crate::signal::Rates)
-    /// behind this check then shows a velocity of up to `rate`.
-    /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) keeps this velocity
-    /// out of a feed-forward.
+    /// After a reading has repeated for `t` seconds, the check also accepts a spike of up to
+    /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`.
+    /// [`with_sample_period`](Self::with_sample_period) bounds the spike and this time. Use it for
+    /// a sensor that is not synchronous with the loop, or whose readings repeat while the signal is
+    /// constant, such as an encoder.
+    ///
+    /// While the check rejects samples, the permitted difference grows with time. If the signal has
+    /// in fact jumped, the check accepts it again after the time `distance/rate`, rounded up to the
+    /// next sample. The same applies to the new position of an encoder that was reset.
+    /// [`Rates`](crate::signal::Rates) downstream of the check then gives a velocity of up to
+    /// `rate`. [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) prevents a
+    /// feed-forward from using this velocity.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"rate"`.
@@ -126,13 +125,13 @@ crate::checked! {
         Ok(Plausible { rate, ..sensor })
     }
 
-    /// The same check for a sensor that needs at most `sample_period` \[s\] from one reading to
-    /// the next.
+    /// The same check for a sensor with a sampling period of at most `sample_period` \[s\].
     ///
-    /// Include the jitter of the sensor and of its bus. Every reading is then taken to be at most
-    /// this old, and the next reading may differ by `rate·(sample_period + dt)`. This distance does
-    /// not depend on the number of repetitions or on the phase between sensor and loop. The same
-    /// distance is the largest accepted spike. Without a rate this setting has no effect.
+    /// Include the jitter of the sensor and of its bus. The check then assumes that every reading
+    /// is at most this old, and the next reading may differ by `rate·(sample_period + dt)`. The
+    /// same difference is the largest spike that the check accepts. This difference depends neither
+    /// on the number of repetitions nor on the phase between sensor and loop. Without a rate limit,
+    /// this setting has no effect.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -155,11 +154,10 @@ crate::checked! {
         Ok(Plausible { sample_period, ..sensor })
     }
 
-    /// The same check with a longest `dt` \[s\]: a longer or unusable `dt` counts as this one.
+    /// The same check with a longest `dt` \[s\], which replaces a longer or unusable `dt`.
     ///
-    /// A wrapped counter reports a `dt` of an hour, or a negative `dt`. In that time any signal may
-    /// have moved anywhere, so the check would accept one spike and reject every true sample after
-    /// it.
+    /// A timer that wraps may report a negative `dt`, or a `dt` of an hour. Without this setting,
+    /// the check would then accept one spike of any size, and reject the true samples after it.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -170,14 +168,14 @@ crate::checked! {
 }
 
 impl<T: Real> Plausible<T> {
-    /// The same check with a stuck limit: `samples` equal readings in succession mean that the
-    /// sensor is stuck; 0 disables this check.
+    /// The same check, which also rejects a stuck sensor after `samples` repetitions of a reading;
+    /// 0 disables this check.
     ///
-    /// A sensor counts as stuck until its reading changes, even at rest. If this prevents the
-    /// machine from moving, use a new [`PlausibleState`], which treats the sensor as sound.
+    /// A sensor counts as stuck until its reading changes. If this prevents the machine from
+    /// moving, start with a new [`PlausibleState`].
     ///
-    /// Equal readings count only while the machine moves. A coarse encoder repeats its reading at
-    /// low speed: choose more samples than one of its counts lasts at that speed.
+    /// Repetitions count only while the machine moves. A coarse encoder repeats its reading at low
+    /// speed, so `samples` must be larger than the number of samples per count at that speed.
     #[must_use]
     pub const fn with_stuck_after(self, samples: u32) -> Self {
         Self {
@@ -188,14 +186,14 @@ impl<T: Real> Plausible<T> {
 
     /// Checks a sample taken `dt` \[s\] after the previous one.
     ///
-    /// `moves` states whether the machine moves, so that the signal must change. For example, set
-    /// it if the command or another sensor has changed.
+    /// Set `moves` if the machine moves, so that the signal must change, for example if the command
+    /// or another sensor has changed.
     ///
-    /// A `dt` of zero adds no time: with a rate limit, the sample right after a change must have
-    /// the same value. A `dt` that is negative, NaN or infinite counts as
-    /// [`with_longest_dt`](Self::with_longest_dt) states. Without that setting the time is unknown,
-    /// and any sample in the range is plausible until the reading has changed. A sample that is not
-    /// finite is never plausible.
+    /// A `dt` of zero adds no time, so with a rate limit the sample after a change must have the
+    /// same value. The longest `dt` (see [`with_longest_dt`](Self::with_longest_dt)) replaces a
+    /// `dt` that is negative, NaN or infinite. Without that setting the time is unknown, and any
+    /// sample in the range is plausible until the reading changes. A sample that is not finite is
+    /// never plausible.
     #[inline]
     pub fn step(
         &self,
@@ -264,7 +262,7 @@ impl<T: Real> Plausible<T> {
 }
 
 impl<T: Real> PlausibleState<T> {
-    /// A new state: the first sample may lie anywhere in the range.
+    /// A new state. The first sample may lie anywhere in the range.
     pub const fn new() -> Self {
         Self {
             last: None,
@@ -279,7 +277,7 @@ impl<T: Real> PlausibleState<T> {
         Self { last, gap, same }
     }
 
-    /// The last plausible sample \[signal unit\], if there was one.
+    /// The last plausible sample \[signal unit\], or `None` before the first one.
     pub const fn last(&self) -> Option<T> {
         self.last
     }

@@ -1,17 +1,18 @@
-//! The play operator: backlash, and noise rejection in front of a hysteresis.
+//! The play operator, for backlash and for noise rejection upstream of a hysteresis.
 
 use super::clamp;
 use crate::error::not_below_zero;
 use crate::{Error, Real};
 
 crate::checked::stored! {
-    /// Play of half-width r [input unit]: follows the input at a distance of at most r.
+    /// Play operator with half-width r: the output follows the input at a distance of at most r.
     ///
-    /// `y⁺ = clamp(y, x - r, x + r)`, so `|y - x| <= r`. An oscillation of the input within 2r does not
-    /// move the output. In front of a hysteresis a play prevents reversals from sensor noise. A
-    /// half-width of four times the noise's standard deviation is sufficient (see
-    /// [`Transmission`](crate::transmission::Transmission)). Source: Krasnosel'skii & Pokrovskii,
-    /// *Systems with Hysteresis*, 1989.
+    /// The output is `y⁺ = clamp(y, x - r, x + r)`. An oscillation of the input with a peak-to-peak
+    /// amplitude of up to 2r does not change the output. Upstream of a hysteresis, a play therefore
+    /// prevents false reversals from sensor noise. A half-width of four standard deviations of the
+    /// noise is sufficient (see [`transmission`](crate::transmission)).
+    ///
+    /// Source: Krasnosel'skii & Pokrovskii, *Systems with Hysteresis*, 1989.
     ///
     /// ```
     /// use bowden::signal::{Play, PlayState};
@@ -33,7 +34,7 @@ crate::checked::stored! {
 }
 
 crate::checked::stored! {
-    /// State of a [`Play`]: its output, empty before the first sample.
+    /// State of a [`Play`]: its output, if there was a good sample.
     #[derive(Default)]
     pub struct PlayState<T> {
         output: Option<T>,
@@ -43,7 +44,7 @@ crate::checked::stored! {
 crate::checked! {
     Play<T>;
 
-    /// A play of `half_width >= 0` [input unit]; with zero the output is the input.
+    /// A play with `half_width >= 0` [input unit]. With zero, the output is the input.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -64,9 +65,10 @@ impl<T: Real> Play<T> {
         self.half_width
     }
 
-    /// The output after one input [input unit]; a bad sample leaves the output unchanged.
+    /// The output [input unit] after one input sample [input unit].
     ///
-    /// Returns zero before the first good sample.
+    /// An input that is not finite leaves the output unchanged. Before the first good sample, the
+    /// output is zero.
     #[inline]
     pub fn step(&self, state: &mut PlayState<T>, input: T) -> T {
         let output = state
@@ -88,7 +90,7 @@ impl<T: Real> PlayState<T> {
         Self { output: None }
     }
 
-    /// The output [input unit], `None` before the first good sample.
+    /// The output [input unit], or `None` before the first good sample.
     pub fn output(&self) -> Option<T> {
         self.output
     }

@@ -1,15 +1,15 @@
-//! A reference ramp that a loop can follow.
+//! A reference with a limited rate.
 
 use crate::error::{above_zero, not_below_zero};
 use crate::signal::Compensated;
 use crate::{Error, Real};
 
 crate::checked::stored! {
-    /// A reference ramp: a rate limit, then a first-order lag.
+    /// A reference ramp: a rate limit, followed by a first-order lag.
     ///
-    /// `r⁺ = r + clamp(wanted − r, ±rate·dt)`, `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. A step of the
-    /// reference can demand more than the drive can deliver. The anti-windup then determines the
-    /// response, not the gains.
+    /// The ramp is `r⁺ = r + clamp(wanted − r, ±rate·dt)`, and the reference is
+    /// `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. With a suitable rate, a step of the reference does not
+    /// saturate the drive.
     ///
     /// ```
     /// use bowden::signal::{Ramp, RampState};
@@ -36,7 +36,7 @@ crate::checked::stored! {
     /// State of a [`Ramp`]: the ramp and the filtered value.
     #[derive(Default)]
     pub struct RampState<T> {
-        /// Compensated: at 10 kHz a plain `f32` ramp of 0.005/s would never leave 25.
+        /// A compensated sum. At 10 kHz, a plain `f32` ramp of 0.005/s would stay at 25.
         ramp: Compensated<T>,
         value: Compensated<T>,
     }
@@ -56,12 +56,12 @@ crate::checked! {
         Ok(Ramp { rate, time_constant, longest_dt })
     }
 
-    /// The same ramp with a longest `dt` \[s\]: a longer `dt` leaves the reference unchanged;
-    /// default: any finite `dt` moves it.
+    /// The same ramp with a longest `dt` \[s\] (default: any finite `dt`). A longer `dt` leaves the
+    /// reference unchanged.
     ///
-    /// Use the controller's own longest dt. Without this limit, a wrapped counter would move the
-    /// reference to its target in one sample; the controller rejects that sample, and sees a step
-    /// at the next one.
+    /// Use the longest `dt` of the controller. Without this limit, a timer that wraps would move
+    /// the reference to its target in one sample. The controller would reject this sample, and
+    /// receive a step at the next sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -72,11 +72,11 @@ crate::checked! {
 }
 
 impl<T: Real> Ramp<T> {
-    /// The reference `dt` \[s\] later, on its path to `wanted` \[signal unit\].
+    /// The reference \[signal unit\] `dt` \[s\] later, on its way to `wanted` \[signal unit\].
     ///
     /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
-    /// reference unchanged. The reference never passes a constant `wanted`. If `wanted`
-    /// reverses during the ramp, the lag may overshoot it by `rate·time_constant`.
+    /// reference unchanged. The reference never passes a constant `wanted`. If `wanted` reverses
+    /// during the ramp, the lag may overshoot it by up to `rate·time_constant`.
     #[inline]
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {
@@ -98,7 +98,7 @@ impl<T: Real> Ramp<T> {
     }
 }
 
-/// A sum that moves by `way` and not past its target, which rounding might do.
+/// The sum plus `way`, but not past the target in spite of rounding errors.
 #[inline]
 fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
     let moved = from.plus(way);

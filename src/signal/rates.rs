@@ -1,4 +1,4 @@
-//! Causal velocity and acceleration from position samples.
+//! Causal velocity and acceleration from samples of the position.
 
 use crate::effect::Motion;
 use crate::error::{above_zero, must_be_finite};
@@ -6,49 +6,52 @@ use crate::fault::{fault_of_dt, unless_finite, Fault};
 use crate::real::of;
 use crate::{Error, Real};
 
-/// Default: a gap of more than this many time constants restarts the rates.
+/// Default: a gap of more than this number of time constants restarts the rates.
 const LONGEST_GAP: f64 = 10.0;
 
 /// Time constants after which rates that started at zero count as settled.
 const SETTLING: f64 = 5.0;
 
-/// Corner of [`Rates::for_cutoff`] \[rad/s\] over the cut-off of the fit \[Hz\]: 2.5 times as high.
+/// Corner of [`Rates::for_cutoff`] \[rad/s\] over the cut-off frequency of the fit \[Hz\]. The
+/// corner is at 2.5 times the cut-off frequency.
 const CORNER: f64 = 2.0 * core::f64::consts::PI * 2.5;
 
 crate::checked::stored! {
-    /// [`Motion`] (velocity and acceleration) from position samples, with gaps and wrap-around.
+    /// Velocity and acceleration ([`Motion`]) from samples of the position, with gaps and
+    /// wrap-around.
     ///
     /// ```text
     /// s  = 1 − e^(−h/tau),  h = time since the last good sample
     /// v⁺ = v + s·((x − x_last)/h − v)
     /// a⁺ = a + s·((v⁺ − v)/h − a)
     /// ```
-    /// Two [`Derivative`](super::Derivative)s in cascade with one time constant tau. Well below the
-    /// sample rate `V/X = s/(tau·s + 1)` and `A/X = s²/(tau·s + 1)²`. The position is not delayed, the
-    /// velocity has a delay of tau, and the acceleration a delay of 2·tau. At `f` \[Hz\] with
-    /// `w = 2π·f·tau` the velocity has the gain `1/√(1 + w²)` and the phase lag `atan(w)`. The
-    /// acceleration has the square of this gain and twice this lag. At any sample rate, with
-    /// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`: a ramp gives its exact slope. The
+    /// With the time constant tau, and well below the sample rate, `V/X = s/(tau·s + 1)` and
+    /// `A/X = s²/(tau·s + 1)²`. The position has no delay, the velocity has a delay of tau, and the
+    /// acceleration has a delay of 2·tau. At `f` \[Hz\], with `w = 2π·f·tau`, the gain of the
+    /// velocity is `1/√(1 + w²)` and its phase lag is `atan(w)`. The acceleration has the square of
+    /// this gain and twice this lag. At any sample rate, with `q = e^(−h/tau)`,
+    /// `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the velocity is therefore exact. The
     /// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
     ///
-    /// White noise of standard deviation `s_x` on the position gives about `s_x/tau` on the
-    /// velocity and `s_x/tau²` on the acceleration. Both are smaller if tau is not far above h.
+    /// White noise with a standard deviation of `s_x` on the position gives noise of about
+    /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both values are smaller if tau
+    /// is not much larger than h.
     ///
-    /// * **First sample**: the rates start at zero, without a kick. On a moving axis the velocity
-    ///   approaches the true velocity V as `V·(1 − e^(−t/tau))`. The acceleration has a pulse of
+    /// * **First sample**: the rates start at zero. On an axis that moves at the velocity V, the
+    ///   computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a pulse of
     ///   `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time constants.
-    /// * **Bad samples** (a position that is not finite, or a `dt` that is not positive and finite):
-    ///   the last good motion is held. The status states the fault.
-    /// * **Gaps**: the difference spans the time since the last good sample, including missing and bad
-    ///   samples. After more than the [longest gap](Self::with_longest_gap) the rates restart at zero. After a
-    ///   `dt` that was negative or not finite the time is unknown. The next good sample then only sets
-    ///   the position, and the rates are held.
+    /// * **Bad samples**: if the position is not finite, or if `dt` is not positive and finite, the
+    ///   last good motion is held. The status reports the fault.
+    /// * **Gaps**: h is the time since the last good sample, including the time of bad samples.
+    ///   After more than the [longest gap](Self::with_longest_gap), the rates restart at zero.
+    ///   After a `dt` that is negative or not finite, the time is unknown. The next good sample
+    ///   then only sets the position, and the rates are held.
     /// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
-    /// * **Long runs**: a position in `f32` has a spacing of up to `2⁻²³·|x|`, which appears as
-    ///   noise in the rates. At 1000 rad the spacing is 6e-5 rad, so with tau = 10 ms the noise is
-    ///   up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
-    ///   modulo its period. The differences are then those of small numbers, an integer counts the
-    ///   turns, and only the returned position is rounded.
+    /// * **Long runs**: a position in `f32` has a resolution of up to `2⁻²³·|x|`, which appears as
+    ///   noise in the rates. At 1000 rad the resolution is 6e-5 rad, so with tau = 10 ms the noise
+    ///   is up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
+    ///   modulo its period. An integer then counts the turns, and only the returned position has
+    ///   this rounding error.
     ///
     /// ```
     /// use bowden::signal::{Rates, RatesState, RateStatus};
@@ -81,33 +84,34 @@ crate::data! {
     /// Validity of the rates from [`Rates`] or [`EdgeVelocity`](super::EdgeVelocity).
     #[derive(Eq, Hash)]
     pub enum RateStatus {
-        /// A good sample, and the rates have settled: two counts and the time between them are
-        /// known.
+        /// A good sample, and the rates have settled. From an
+        /// [`EdgeVelocity`](super::EdgeVelocity): two counts and the time between them are known.
         Good,
-        /// A good sample, but the rates started from zero less than five time constants ago, or
-        /// fewer than two counts are known.
+        /// A good sample, but the rates started from zero less than five time constants ago. From
+        /// an [`EdgeVelocity`](super::EdgeVelocity): two counts and the time between them are not
+        /// yet known.
         Settling,
-        /// A good position after an unknown time: [`Rates`] holds the rates.
+        /// A good sample after an unknown time. [`Rates`] holds the rates.
         Resumed,
-        /// No count for longer than the longest gap: the velocity of an
+        /// No count for longer than the longest gap. The velocity of an
         /// [`EdgeVelocity`](super::EdgeVelocity) is zero.
         Stopped,
-        /// A bad sample: the last good rates are held.
+        /// A bad sample. The last good rates are held.
         Held(Fault),
     }
 
-    /// Output of a [`Rates`]' step.
+    /// Output of a step of [`Rates`].
     pub struct RatesOutput<T> {
-        /// Position (unwrapped), velocity and acceleration; finite, zero before the first good
-        /// sample.
+        /// Position (unwrapped), velocity and acceleration. They are finite, and zero before the
+        /// first good sample.
         pub motion: Motion<T>,
-        /// Whether the motion is new, and its rates have settled.
+        /// Validity of the motion.
         pub status: RateStatus,
     }
 }
 
 crate::checked::stored! {
-    /// State of [`Rates`]: the last good sample, the rates, and the elapsed time.
+    /// State of [`Rates`]: the last good sample, the rates and the elapsed time.
     #[derive(Default)]
     pub struct RatesState<T> {
         /// The last good position as received, not unwrapped.
@@ -119,7 +123,7 @@ crate::checked::stored! {
         gap: T,
         /// Whether an unknown time has passed since the last good sample.
         time_unknown: bool,
-        /// Time since the rates started at zero; constant once they have settled.
+        /// Time since the rates started at zero. It is constant once they have settled.
         age: T,
     }
     => {
@@ -142,8 +146,8 @@ crate::checked! {
 
     /// Rates with `time_constant > 0` \[s\].
     ///
-    /// The longest gap is ten time constants. A loop with a longer sample time needs
-    /// [`with_longest_gap`](Self::with_longest_gap); otherwise every sample restarts the rates.
+    /// The longest gap is ten time constants. If the sample time is longer, use
+    /// [`with_longest_gap`](Self::with_longest_gap). Otherwise, every sample restarts the rates.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -155,17 +159,18 @@ crate::checked! {
         Ok(Rates { time_constant, longest_gap, period })
     }
 
-    /// Rates for a model that was fitted with the cut-off `cutoff` \[Hz\].
+    /// Rates for a model that was fitted with the cut-off frequency `cutoff` \[Hz\].
     ///
-    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off f_c. These rates have
-    /// the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c the velocity has 93 % of its amplitude and
-    /// lags by 22°; the acceleration has 86 % and lags by 44°. The delays are `0.064/f_c` and
-    /// `0.127/f_c`. The smoother of the fit reads future samples and has zero phase, so the model's
-    /// error is larger with causal rates. A shorter tau reduces the delay but increases the noise.
+    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. These
+    /// rates have the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its
+    /// amplitude and a lag of 22°, and the acceleration has 86 % of its amplitude and a lag of 44°.
+    /// The delays are `0.064/f_c` and `0.127/f_c`. The error of the model is larger with these
+    /// causal rates, because the smoother of the fit has zero phase. A shorter tau reduces the
+    /// delay but increases the noise.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`, also if the time constant
-    /// is not a finite float.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. The second error includes a
+    /// `cutoff` whose time constant is not a positive finite float.
     pub fn for_cutoff(cutoff: T) {
         above_zero!(cutoff, "cutoff");
         let corner: T = of(CORNER);
@@ -178,13 +183,13 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// The same rates for positions modulo `period > 0` \[channel unit\], such as the positions of
-    /// a counter.
+    /// The same rates for positions modulo `period > 0` \[channel unit\], such as those of a
+    /// counter.
     ///
-    /// The position of the motion is unwrapped: it continues when the counter wraps. Between two
-    /// good samples the axis must move by less than half a period. `period > 2·|v|·longest_gap`
-    /// therefore makes every gap safe. Turns are counted up to 2³¹. Beyond this number the position
-    /// is wrong by whole periods, but the rates are still correct.
+    /// The position of the motion is unwrapped, so it continues when the counter wraps. Between two
+    /// good samples the axis must move by less than half a period, which
+    /// `period > 2·|v|·longest_gap` ensures for every gap. Beyond 2³¹ turns, the position is wrong
+    /// by whole periods, but the rates are still correct.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
@@ -194,9 +199,9 @@ crate::checked! {
         Ok(Rates { period, ..rates })
     }
 
-    /// The same rates with another longest gap \[s\], above zero.
+    /// The same rates with another longest gap \[s\], which must be positive.
     ///
-    /// The gap must be longer than the longest `dt` of a good loop.
+    /// The longest gap must exceed the longest `dt` of the loop in normal operation.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_gap"`.
@@ -207,7 +212,7 @@ crate::checked! {
 }
 
 impl<T: Real> Rates<T> {
-    /// The time constant \[s\]: the delay of the velocity, and half the delay of the
+    /// The time constant \[s\], which is the delay of the velocity and half the delay of the
     /// acceleration.
     pub fn time_constant(&self) -> T {
         self.time_constant
@@ -215,9 +220,9 @@ impl<T: Real> Rates<T> {
 
     /// The motion at a `position` \[channel unit\] measured `dt` \[s\] after the last call.
     ///
-    /// `dt` is the time since the last call, whether that sample was good or bad. `dt` must be
-    /// above zero, even at the first call. A bad sample leaves the state unchanged except for the
-    /// elapsed time.
+    /// `dt` is the time since the last call, even if the last sample was bad. `dt` must be
+    /// positive, including at the first call. A bad sample leaves the state unchanged except for
+    /// the elapsed time.
     #[inline]
     pub fn step(&self, state: &mut RatesState<T>, position: T, dt: T) -> RatesOutput<T> {
         let status = match self.advance(state, position, dt) {
@@ -325,14 +330,14 @@ impl<T: Real> RatesState<T> {
         Self::default()
     }
 
-    /// The motion at the last good sample, zero before the first one.
+    /// The motion at the last good sample, or zero before the first good sample.
     pub fn motion(&self) -> Motion<T> {
         self.motion
     }
 
     /// The time of the bad samples since the last good one \[s\].
     ///
-    /// It does not include unusable values of `dt`.
+    /// This time does not include unusable values of `dt`.
     pub fn gap(&self) -> T {
         self.gap
     }

@@ -3,11 +3,11 @@
 use crate::hysteresis::{BoucWen, BoucWenState};
 use crate::Real;
 
-/// The input for a desired output, along the path of the hysteresis.
+/// The inverse of a transmission, which computes the input for a desired output.
 ///
-/// [`Transmission::inverse`](super::Transmission::inverse) creates it; its condition makes the
-/// result unique. The state has the type of the transmission's state. After
-/// [`step`](Self::step) it equals the state of the forward model after the same input.
+/// [`Transmission::inverse`](super::Transmission::inverse) creates an `Inverse`, and checks that
+/// the input is unique. The state has the type of the transmission's state. After
+/// [`step`](Self::step), the state equals that of the forward model after the same input.
 ///
 /// ```
 /// use bowden::hysteresis::{BoucWenState, BoucWen};
@@ -34,22 +34,22 @@ pub struct Inverse<T> {
     pub(super) offset: T,
 }
 
-/// Most evaluations of the forward model in one step: bisection alone needs 64.
+/// Largest number of evaluations of the forward model in one step. Bisection by itself needs 64.
 const MOST_EVALUATIONS: u32 = 100;
 
 impl<T: Real> Inverse<T> {
     /// The input [input unit] for which the forward model gives `desired_output`.
     ///
-    /// The forward model then returns `desired_output` to 16 machine epsilons of the magnitudes in
-    /// its equation, including the last input. The smallest guaranteed error is the smallest normal
-    /// number. The method is a secant method along the path, inside a bracket that always contains
-    /// the solution, and starts with the slope of the path. It usually needs one or two
-    /// evaluations, and never more than 100.
+    /// The forward model then returns `desired_output` with an error of at most 16 machine epsilons
+    /// times the sum of the magnitudes in its equation, including the last input. The guaranteed
+    /// error is never below the smallest normal number. The solver is a secant method inside a
+    /// bracket that contains the solution. It usually needs one or two evaluations of the forward
+    /// model, and at most 100.
     ///
-    /// A state before its first input keeps its eta in this step, as in the forward model. The
-    /// step leaves the state unchanged and returns the last input (zero if there is none) if
-    /// - the desired output is not finite, or
-    /// - the input or the path to it exceeds the range of floats.
+    /// The first step keeps the eta of the state, as in the forward model. In two cases, a step
+    /// leaves the state unchanged and returns the last input, or zero if there is none:
+    /// - the desired output is not finite;
+    /// - the input, or the path to this input, exceeds the range of floats.
     pub fn step(&self, state: &mut BoucWenState<T>, desired_output: T) -> T {
         let last = state.input();
         let target = self.sign * (desired_output - self.offset);
@@ -69,7 +69,8 @@ impl<T: Real> Inverse<T> {
         state.arrive(input, eta)
     }
 
-    /// Root of `gain·u + hysteresis·eta(u) - target`, which rises with `u`, and eta there.
+    /// The root of `gain·u + hysteresis·eta(u) - target`, which rises with `u`, and eta at the
+    /// root.
     fn solve(&self, start: T, eta: T, target: T, lowest: T, highest: T) -> (T, T) {
         let mut tolerance = target.abs() + (self.gain * start).abs() + self.hysteresis.abs();
         tolerance *= T::from_f64(4.0) * T::epsilon();

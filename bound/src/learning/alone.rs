@@ -1,11 +1,11 @@
-//! The loop of a P or PI without learning: stable, with a small response above the cells'
-//! Nyquist frequency.
+//! Stability of the loop with a P or PI controller and without learning control, and its response
+//! above the Nyquist frequency of the cells.
 
 use crate::plants::Plants;
 use crate::span::{Plane, Span};
 use crate::zeros::{excluded, Closed};
 
-/// A P or PI with a plant alone.
+/// A P or PI controller with a plant, without learning control.
 pub(super) struct Loop {
     pub(super) k_p: f64,
     pub(super) k_i: f64,

@@ -1,4 +1,4 @@
-//! The factor of a tone over one cycle, for regions of frequencies, cycle times and plants.
+//! The factor H of a sinusoid over one cycle, for regions of frequencies, cycle times and plants.
 
 use super::alone::Loop;
 use crate::plants::Plants;

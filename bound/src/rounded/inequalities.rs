@@ -13,7 +13,7 @@ use crate::dyadic::{Dyadic, Enclosure};
 pub enum Named {
     /// `h·lambda <= 1`.
     Step,
-    /// `h·lambda·g⁺·(k + delta_hat·q) <= 1`, q the steepest `T(s/epsilon)/s`.
+    /// `h·lambda·g⁺·(k + delta_hat·q) <= 1`, where q is the largest `T(s/epsilon)/s`.
     Steepness,
     /// `h·S + E_z <= h·lambda·Z`.
     ZStays,
@@ -25,21 +25,21 @@ pub enum Named {
     Owed,
     /// `Z <= z_limit`.
     ZLimit,
-    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the limit of the command: it is not active.
+    /// `(r + S + lambda·Z + theta'x + D)/alpha⁻ <=` the command limit, which is then not active.
     Command,
-    /// Twice the sum of all numbers that the step adds and multiplies, the updates of the
-    /// estimates included, `<=` the largest float.
+    /// Twice the sum of all numbers that the step adds and multiplies, including the updates of the
+    /// estimates, `<=` the largest float.
     Overflow,
-    /// `(r + theta'x + D + lambda·Z - S)/alpha⁻ <=` the limit of the command, which may be
-    /// active.
+    /// `(r + theta'x + D + lambda·Z - S)/alpha⁻ <=` the command limit, which may be active.
     Reserve,
-    /// `h·lambda·(2 + g⁺·k) <= 1`: while z is frozen, one step does not overshoot the box.
+    /// `h·lambda·(2 + g⁺·k) <= 1`. While z is frozen, one step does not overshoot the box.
     Waiting,
-    /// `lambda²·Z <= lambda·S + 2·g⁻·Z`: the margin of Z for rounding, while z is frozen.
+    /// `lambda²·Z <= lambda·S + 2·g⁻·Z`, which is the margin of Z for rounding errors while z is
+    /// frozen.
     Slack,
-    /// The change of the command in a step `<=` the change that the slew-rate limit allows: the
+    /// The change of the command in a step `<=` the change that the slew-rate limit allows, so this
     /// limit is not active. `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S +
-    /// lambda·Z))/alpha⁻` and `E_c`, the roundings of the command, `<= h·slew`.
+    /// lambda·Z))/alpha⁻` plus the rounding errors `E_c` of the command `<= h·slew`.
     Slew,
 }
 
@@ -67,11 +67,11 @@ impl Named {
     }
 }
 
-/// One inequality: both sides, rounded against the claim.
+/// One inequality. Both sides are rounded against the claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Inequality {
-    /// Its name.
+    /// Name of the inequality.
     pub name: Named,
     /// Upper bound on the left side.
     pub left: Dyadic,
@@ -88,7 +88,7 @@ impl Inequality {
         }
     }
 
-    /// Whether it holds.
+    /// Whether the inequality holds.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.left <= self.right

@@ -1,4 +1,4 @@
-//! The box theorem for the shipped step: every rounding included.
+//! The box theorem for the shipped step, with all rounding errors.
 
 mod estimates;
 mod gains;
@@ -14,38 +14,39 @@ use bowden::control::{Adaptive, AdaptiveSettings};
 use bowden::{Error, Real};
 use gains::Gains;
 
-/// The box theorem of the first-order form, for the shipped step, with every rounding.
+/// The box theorem of the first-order form for the shipped step, with all rounding errors.
 ///
-/// [`PeakSampled`](super::PeakSampled) applies to exact numbers; this theorem applies to the floats
-/// of the controller. Let `|s| <= S`, `|z| <= Z`, and let the carries of the sums of z and of the
-/// command be at most the rounding error of their last addition. If the nine
-/// [`inequalities`](Self::inequalities) hold, these conditions hold after every step too, and `|e|
-/// <= S + lambda·Z` at every sample, for `f32` and `f64`.
+/// [`PeakSampled`](super::PeakSampled) applies to exact numbers. This theorem applies to the floats
+/// of the controller. Let `|s| <= S` and `|z| <= Z`, and let the carries of the sums of z and of
+/// the command be at most the rounding error of their last addition. If the nine
+/// [`inequalities`](Self::inequalities) hold, these conditions also hold after every step. Then
+/// `|e| <= S + lambda·Z` at every sample, for `f32` and `f64`.
 ///
-/// Each inequality is computed in integers, rounded outwards, so the proof does not rely on a
-/// float. The computation needs no heap, so a controller can check its own gains at start-up; the
-/// time that it takes on a microcontroller has not been measured.
+/// Each inequality is computed in integers, rounded outwards, so the proof does not rely on
+/// floating-point arithmetic. The computation needs no heap, so a controller can check its own
+/// gains at start-up. Its computing time on a microcontroller has not been measured.
 ///
 /// *Proof.* The exact step stays in the box with a margin, as in
-/// [`PeakSampled`](super::PeakSampled); the [`Roundings`] are less than the margin. The theorem
-/// over the reals is `theorems/Box.v`.
+/// [`PeakSampled`](super::PeakSampled). The rounding errors ([`Roundings`]) are smaller than the
+/// margin. The theorem over the reals is `theorems/Box.v`.
 ///
-/// **A limit that may be active.** The eighth inequality states that no command in the box exceeds
-/// the limit. If it fails, the three inequalities of [`at_the_limit`](Self::at_the_limit) are
-/// sufficient instead. If a limit that can hold the reference against the load cuts a command, z is
-/// frozen, and the box is the same (`theorems/Limit.v`).
+/// **Command limits that may be active.** By the eighth inequality, no command in the box exceeds
+/// the limits. If this inequality fails, the three inequalities of
+/// [`at_the_limit`](Self::at_the_limit) are sufficient instead. While the command saturates, z is
+/// frozen. If the limits allow a command that holds the reference against the load, the box is the
+/// same (`theorems/Limit.v`).
 ///
-/// **A slew-rate limit must not be active.** [`slew`](Self::slew) states that every step from the
-/// box changes the command by less than the slew-rate limit allows (`theorems/Slew.v`).
+/// **A slew-rate limit must not be active.** By the inequality [`slew`](Self::slew), every step
+/// from the box changes the command by less than the slew-rate limit allows (`theorems/Slew.v`).
 ///
 /// Further assumptions:
-/// - the plant is `y = alpha·u - theta'x - D` without dynamics, with y as the controller reads
-///   it: the rounding of the sensor is part of D and counts in its rate;
-/// - `dt` is the form's step at every sample;
+/// - the plant is `y = alpha·u - theta'x - D` without dynamics, where y is the value that the
+///   controller reads (the quantisation of the sensor is part of D and of its rate);
+/// - `dt` is the step of the form at every sample;
 /// - the next reference is the true one;
-/// - no feed-forward;
+/// - there is no feed-forward;
 /// - no sample is bad;
-/// - the errors start in the box.
+/// - the initial errors are in the box.
 ///
 /// The true values need not lie within the bounds on the estimates, and the estimates may move
 /// freely within their bounds.
@@ -68,8 +69,8 @@ use gains::Gains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakRounded {
-    /// S \[N·m\]: the bound on `|s|`. It is the smallest value for which the proof succeeds, to a
-    /// relative accuracy of 2^-14.
+    /// S \[N·m\]: the bound on `|s|`, which is the smallest value with a proof, to a relative
+    /// accuracy of 2^-14.
     pub s: Enclosure,
     /// Z \[N·m·s\]: the bound on `|z|`.
     pub z: Enclosure,
@@ -81,7 +82,7 @@ pub struct PeakRounded {
     pub g: [Enclosure; 2],
     /// S + lambda·Z \[N·m\].
     pub error: Enclosure,
-    /// The roundings of one step.
+    /// The rounding errors of one step.
     pub roundings: Roundings,
     /// The nine inequalities, in the order of [`Named`].
     pub inequalities: [Inequality; 9],
@@ -96,7 +97,7 @@ const DOUBLINGS: u32 = 20;
 const HALVINGS: u32 = 80;
 
 impl PeakRounded {
-    /// The certificate of a law on a plant.
+    /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
     /// The same as [`examine`](Self::examine), and [`Error::Inadmissible`] with the first violated
@@ -114,14 +115,13 @@ impl PeakRounded {
 
     /// The inequalities at the smallest S that they allow, even if some do not hold.
     ///
-    /// The argument is a settings struct, since [`Adaptive::try_new`] refuses some settings
-    /// that fail. If no S is sufficient, the inequalities are evaluated at the S for exact
-    /// numbers.
+    /// The argument is a settings struct, because [`Adaptive::try_new`] rejects some settings for
+    /// which an inequality fails. If no S is sufficient, the inequalities are evaluated at the S
+    /// for exact numbers.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if no inequality
-    /// can be stated for these settings and this plant; [`Error::Capacity`] for more than 16
-    /// regressors.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if these settings and
+    /// this plant give no inequality; [`Error::Capacity`] for more than 16 regressors.
     pub fn examine<T: Real, const N: usize>(
         settings: &AdaptiveSettings<T, N>,
         plant: &Plant<f64, N>,
@@ -151,21 +151,21 @@ impl PeakRounded {
         Ok(Self::at(&gains, high))
     }
 
-    /// Whether all inequalities hold, including the slew-rate inequality; [`Named::Command`] may be
-    /// replaced by its three substitutes.
+    /// Whether all inequalities hold, including the slew-rate inequality. The three inequalities
+    /// [`at_the_limit`](Self::at_the_limit) may replace [`Named::Command`].
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.refused().is_none()
     }
 
-    /// Whether the limit of the command may be active in the box: [`Named::Command`] fails.
+    /// Whether the command may saturate in the box, because [`Named::Command`] fails.
     #[must_use]
     pub fn may_meet_the_limit(&self) -> bool {
         let mut fails = self.inequalities.iter().filter(|it| !it.holds());
         fails.any(|it| it.name == Named::Command)
     }
 
-    /// The first violated inequality. For a limit that may be active it is [`Named::Reserve`], if
+    /// The first violated inequality. If the command may saturate, this is [`Named::Reserve`], if
     /// that inequality fails.
     #[must_use]
     pub fn refused(&self) -> Option<&Inequality> {
@@ -178,7 +178,7 @@ impl PeakRounded {
         Some(if is_reserve { reserve } else { first })
     }
 
-    /// S + lambda·Z \[N·m\]: the bound on `|e|` at every sample, never rounded down.
+    /// The bound S + lambda·Z \[N·m\] on `|e|` at every sample, never rounded down.
     #[must_use]
     pub fn bound(&self) -> f64 {
         let nearest = self.error.high().as_f64();

@@ -48,7 +48,7 @@ impl Mul for Computed {
 pub(super) struct Word {
     /// Half a unit in the last place of one: 2^-24 of `f32`, 2^-53 of `f64`.
     pub(super) unit: Enclosure,
-    /// Half of the least number above zero.
+    /// Half of the smallest positive number.
     pub(super) least: Enclosure,
     /// The largest number.
     pub(super) most: Enclosure,
@@ -94,14 +94,15 @@ pub struct Roundings {
     pub carry_error_z: Enclosure,
     /// Carry of z's sum after a step that starts with the permitted carry \[N·m·s\].
     pub owed_after: Enclosure,
-    /// The part of `T(s/epsilon)` that is not proportional to s: underflow.
+    /// The part of `T(s/epsilon)` that is not proportional to s, because of underflow.
     pub smooth_sign: Enclosure,
-    /// Upper bound on every number of the step, the updates of the estimates included: twice
-    /// the sum of all numbers that it adds and multiplies. Half of this bound covers rounding.
+    /// Upper bound on every number of the step, including the updates of the estimates. It is twice
+    /// the sum of all numbers that the step adds and multiplies. Half of this bound covers rounding
+    /// errors.
     pub largest: Enclosure,
 }
 
-/// The roundings while `|s| <= S`, `|z| <= Z` and `|u| <= command`.
+/// The rounding errors while `|s| <= S`, `|z| <= Z` and `|u| <= command`.
 ///
 /// Line by line the computation of `Adaptive::step`; a test compares the lines with the step,
 /// bit for bit. The lag and z are compensated sums: `two_sum` is exact. The carry of a sum is

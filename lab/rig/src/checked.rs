@@ -1,8 +1,8 @@
-//! Values that are finite.
+//! Finite values.
 
 use bowden::{Error, Real};
 
-/// Returns a finite value; refuses NaN and infinities with the parameter's name.
+/// A finite value. NaN and infinities are errors with the name of the parameter.
 pub(crate) fn finite<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
     if value.is_finite() {
         Ok(value)
@@ -11,7 +11,8 @@ pub(crate) fn finite<T: Real>(value: T, name: &'static str) -> Result<T, Error> 
     }
 }
 
-/// The nearest finite value: infinities become the largest, NaN becomes 0.
+/// The nearest finite value. Infinities become the largest float with the same sign, and NaN
+/// becomes 0.
 pub(crate) fn saturate<T: Real>(value: T) -> T {
     if value.is_finite() {
         value

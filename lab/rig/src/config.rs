@@ -4,12 +4,12 @@ use super::checked::finite;
 use super::{Drift, MOST_DELAY};
 use bowden::{Error, Real};
 
-/// Parameters of a rig; published results refer to [`RigConfig::reference`].
+/// Parameters of a rig. Published results refer to [`RigConfig::reference`].
 ///
-/// The fields are public; [`Rig::try_new`](super::Rig::try_new) checks them. All must be finite;
-/// inertias, stiffnesses, lags (except `velocity_lag`), ranges and counts must be above zero;
-/// dampings, noise and `velocity_lag` must not be negative. The sub-step must resolve the cable's
-/// vibration: `2·h·c/m + h²·k/m <= 1`; the limit of stability is 4.
+/// [`Rig::try_new`](super::Rig::try_new) checks the fields. All fields must be finite. Inertias,
+/// stiffnesses, lags (except `velocity_lag`), ranges and counts must be positive. Dampings, noise
+/// and `velocity_lag` must not be negative. The sub-step h must resolve the vibration of the cable:
+/// `2·h·c/m + h²·k/m <= 1`. At 4, the integration becomes unstable.
 ///
 /// ```
 /// use bowden_rig::{Rig, RigConfig};
@@ -49,35 +49,37 @@ pub struct RigConfig<T> {
     pub joint_inertia: T,
     /// Damping of the distal pulley, c_d \[N·m·s/rad\].
     pub joint_damping: T,
-    /// Stiffness of the springs that the joint works against, K \[N·m/rad\].
+    /// Stiffness of the springs that load the joint, K \[N·m/rad\].
     pub load_stiffness: T,
     /// Torque ratio B.
     pub b: T,
-    /// Torque of the hysteresis at saturation \[N·m\].
+    /// Hysteresis torque at saturation, kappa_eta \[N·m\].
     pub kappa_eta: T,
-    /// Pretension T0 \[N·m\].
+    /// Preload T0 \[N·m\].
     pub t0: T,
     /// Bouc-Wen rho \[1/(N·m)\].
     pub rho: T,
-    /// Bouc-Wen sigma; in a feedback loop at most `B/(2·kappa_eta·rho)`.
+    /// Bouc-Wen sigma, in a feedback loop at most `B/(2·kappa_eta·rho)`.
     pub sigma: T,
     /// Bouc-Wen n.
     pub n: T,
     /// Time constant of both torque sensors \[s\].
     pub sensor_lag: T,
-    /// White noise of the distal torque in each sample \[N·m rms\].
+    /// White noise on each sample of the distal torque \[N·m rms\].
     pub noise: T,
-    /// White noise of the proximal torque in each sample \[N·m rms\].
+    /// White noise on each sample of the proximal torque \[N·m rms\].
     pub input_noise: T,
-    /// Torque at which the distal converter saturates, in both directions \[N·m\].
+    /// Torque at which the A/D converter of the distal sensor saturates, in both
+    /// directions \[N·m\].
     pub output_range: T,
-    /// Torque at which the proximal converter saturates, in both directions \[N·m\].
+    /// Torque at which the A/D converter of the proximal sensor saturates, in both
+    /// directions \[N·m\].
     pub input_range: T,
-    /// Counts of a converter over its full range.
+    /// Counts of an A/D converter over its full range.
     pub converter_counts: T,
     /// Counts of an encoder per turn.
     pub encoder_counts: T,
-    /// Time constant of the filter for encoder differences \[s\].
+    /// Time constant of the filter for the differences of the encoder positions \[s\].
     pub velocity_lag: T,
     /// Samples between a command and its effect on the drive.
     pub delay: u8,
@@ -88,11 +90,11 @@ pub struct RigConfig<T> {
 }
 
 impl<T: Real> RigConfig<T> {
-    /// The reference rig: the first parameter set of Nguyen et al. (2018) with sigma = 1/2 and a
+    /// The reference rig: the first parameter set of Nguyen et al. (2018) with sigma = 1/2 and
     /// noise of 0.28 N·m.
     ///
-    /// The identified sigma of 98 is not admissible in a feedback loop: the output would fall while
-    /// the input rises. The encoders have 4096 lines with four counts each.
+    /// The identified sigma of 98 is not admissible in a feedback loop, because the output would
+    /// fall while the input rises. The encoders have 4096 lines with four counts each.
     #[must_use]
     pub fn reference() -> Self {
         let of = T::from_f64;

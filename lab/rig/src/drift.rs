@@ -1,15 +1,15 @@
-//! A conduit that moves during operation: B, kappa_eta and T0 drift.
+//! A conduit that moves during operation, so B, kappa_eta and T0 drift.
 
 use super::{Noise, RigConfig};
 use bowden::signal::clamp;
 use bowden::Real;
 
-/// Size and speed of the drift of the conduit's configuration.
+/// Size and speed of the drift of B, kappa_eta and T0.
 ///
-/// Three Ornstein-Uhlenbeck processes `o` with unit variance, advanced exactly over each sample,
-/// `o⁺ = a·o + sqrt(1 − a²)·N(0, 1)` with `a = e^(−dt/time)`: `B − b·|o1|` within [0.85, 1],
-/// `kappa_eta·(1 + kappa_eta·o2)` within ±50 %, `T0 + t0·o3`. All start at zero, so the initial
-/// configuration is the configured one.
+/// The drift consists of three Ornstein-Uhlenbeck processes with unit variance. Each process
+/// advances exactly over a sample: `o⁺ = a·o + sqrt(1 − a²)·N(0, 1)` with `a = e^(−dt/time)`. B
+/// becomes `B − b·|o1|`, within [0.85, 1]. kappa_eta changes by the fraction `kappa_eta·o2`, within
+/// ±50 %. T0 becomes `T0 + t0·o3`. All processes start at zero.
 ///
 /// ```
 /// let drift = bowden_rig::Drift::<f64>::reference();
@@ -25,9 +25,9 @@ use bowden::Real;
 pub struct Drift<T> {
     /// Correlation time \[s\].
     pub time: T,
-    /// Standard deviation of B.
+    /// Size of the drift of B: the standard deviation of `b·o1`.
     pub b: T,
-    /// Standard deviation of kappa_eta, as a share of kappa_eta.
+    /// Standard deviation of kappa_eta, as a fraction of kappa_eta.
     pub kappa_eta: T,
     /// Standard deviation of T0 \[N·m\].
     pub t0: T,

@@ -1,8 +1,7 @@
-//! A simulated rig: motor, cable, spring-loaded joint, sensors, one sample of delay.
+//! A simulated rig with motor, cable, spring-loaded joint, sensors and delay.
 //!
-//! The rig models the experiment of Nguyen et al. (2018) as an ordinary differential equation. With
-//! it you can test a controller, and compare an error bound with a measured error, before you have
-//! hardware:
+//! The rig models the experiment of Nguyen et al. (2018) as ordinary differential equations. Use it
+//! to test a controller, or to compare an error bound with a measured error, without hardware:
 //!
 //! ```text
 //! tau_c·tau_m' = N_A·u − tau_m                               current loop
@@ -12,19 +11,19 @@
 //! J_d·w_d'     = tau_o − K·phi_d − c_d·w_d + load            joint against its spring (12)
 //! ```
 //!
-//! The equations are integrated with short sub-steps, velocities before positions. The rig is read
-//! as firmware reads hardware: the torque through a lag, white noise and a converter, the angles
-//! through encoders, and the rates from filtered differences of the angles. The command reaches the
-//! drive after a delay of whole samples. The configuration can drift as in a moving conduit
-//! ([`Drift`]), and any effect of the catalogue can be switched on without the controller's
-//! knowledge. One seed determines all random numbers.
+//! The integration uses short sub-steps and computes velocities before positions. The torque
+//! sensors have a lag, white noise and an A/D converter. Encoders measure the angles, and the rates
+//! are filtered differences of the angles. The command reaches the drive after a delay of whole
+//! samples. B, kappa_eta and T0 can drift as in a moving conduit ([`Drift`]), and any effect of the
+//! catalogue can be added without the controller's knowledge. One seed determines all random
+//! numbers.
 //!
-//! The paper does not state inertias, stiffnesses, drive gain or noise. They were chosen so that
-//! the errors of PI and of the adaptive law match the paper's Table 3. These two errors are
-//! therefore calibration; no other result was fitted.
+//! The paper does not give the inertias, stiffnesses, drive gain or noise. They were chosen so that
+//! the errors of the PI controller and of the adaptive law match Table 3 of the paper. These two
+//! errors are therefore a calibration. No other result was fitted.
 //!
-//! The crate is `no_std` and needs no heap, like the core that it uses, so the same trial can run
-//! on the controller's own processor. Features, all off by default: `serde`, `defmt`, `std`.
+//! The crate is `no_std` and needs no heap, so the same trial can run on a microcontroller. The
+//! features `serde`, `defmt` and `std` are off by default.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -51,7 +50,7 @@ use sensor::{Encoder, EncoderState, TorqueSensor, TorqueSensorState};
 /// Maximum number of samples between a command and its effect on the drive.
 pub const MOST_DELAY: usize = 8;
 
-/// Maximum number of sub-steps in one step: with a longer `dt` each sub-step is longer.
+/// Maximum number of sub-steps in one step. With a longer `dt`, each sub-step is longer.
 const MOST_SUB_STEPS: u32 = 4000;
 
 /// A rig with at most `N` undeclared effects.
@@ -103,11 +102,11 @@ pub struct RigSample<T> {
     pub measured_input: T,
     /// Motor torque \[N·m\].
     pub tau_m: T,
-    /// Motion of the proximal pulley \[rad\], as firmware derives it from the encoder.
+    /// Motion of the proximal pulley \[rad\], as firmware computes it from the encoder.
     pub proximal: Motion<T>,
-    /// Motion of the distal pulley \[rad\], as firmware derives it from the encoder.
+    /// Motion of the distal pulley \[rad\], as firmware computes it from the encoder.
     pub distal: Motion<T>,
-    /// Hysteresis state, within ±1.
+    /// Hysteresis state, in [-1, 1].
     pub eta: T,
     /// B at this sample.
     pub b: T,
@@ -115,11 +114,11 @@ pub struct RigSample<T> {
     pub kappa_eta: T,
     /// T0 at this sample \[N·m\].
     pub t0: T,
-    /// Whether the motion has left the range of floats; the rig then stops.
+    /// Whether the motion has exceeded the range of floats. The rig then stops.
     pub diverged: bool,
 }
 
-/// State of a [`Rig`] between samples, from [`Rig::start`].
+/// State of a [`Rig`] between samples, created by [`Rig::start`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -145,21 +144,21 @@ pub struct RigState<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> RigState<T, N> {
-    /// The last sample; before the first step, the sample at time zero.
+    /// The last sample. Before the first step, this is the sample at time zero.
     #[inline]
     #[must_use]
     pub fn sample(&self) -> RigSample<T> {
         self.sample
     }
 
-    /// True motion of the proximal pulley \[rad\], without encoder or filter.
+    /// True motion of the proximal pulley \[rad\], without encoder and filter.
     #[inline]
     #[must_use]
     pub fn proximal(&self) -> Motion<T> {
         self.plant.proximal()
     }
 
-    /// True motion of the distal pulley \[rad\], without encoder or filter.
+    /// True motion of the distal pulley \[rad\], without encoder and filter.
     #[inline]
     #[must_use]
     pub fn distal(&self) -> Motion<T> {
@@ -168,12 +167,12 @@ impl<T: Real, const N: usize> RigState<T, N> {
 }
 
 impl<T: Real, const N: usize> Rig<T, N> {
-    /// Checks the configuration and the undeclared effects.
+    /// A rig with this configuration and these undeclared effects.
     ///
     /// The effects read `Source::Input` (the proximal torque), `Source::Channel(0)` (the proximal
-    /// pulley) or `Source::Channel(1)` (the distal pulley); their load is the proximal torque. An
-    /// effect that reads an acceleration gets that of the previous sub-step, so the gain of an
-    /// inertia must stay below the inertia of the pulley that it reads.
+    /// pulley) or `Source::Channel(1)` (the distal pulley). Their load is the proximal torque. An
+    /// effect that reads an acceleration receives the acceleration of the previous sub-step. The
+    /// gain of an inertia must therefore be smaller than the inertia of its pulley.
     ///
     /// # Errors
     /// The errors of the configuration (see [`RigConfig`]); [`Error::Capacity`] for more than `N`
@@ -205,7 +204,7 @@ impl<T: Real, const N: usize> Rig<T, N> {
         self.plant.undeclared()
     }
 
-    /// The state at rest: all torques are zero, and the sensors have been read once.
+    /// The state at rest. All torques are zero, and the sensors have been read once.
     #[must_use]
     pub fn start(&self, seed: u64) -> RigState<T, N> {
         let mut state = RigState {
@@ -236,16 +235,17 @@ impl<T: Real, const N: usize> Rig<T, N> {
 
     /// Advances by `dt` \[s\] and reads the sensors.
     ///
-    /// If the command is not finite, the drive keeps the last command. A `dt` that is not positive
-    /// and finite changes nothing.
+    /// If the command is not finite, the drive keeps the last command. If `dt` is not positive and
+    /// finite, the state does not change.
     pub fn step(&self, state: &mut RigState<T, N>, command: T, dt: T) -> RigSample<T> {
         self.step_with_load(state, command, T::zero(), dt)
     }
 
     /// [`step`](Self::step) with an additional external torque on the joint \[N·m\].
     ///
-    /// On a bench this torque makes the joint's motion independent of the transmitted torque.
-    /// Without it the spring ties the angle to the torque, and no record can distinguish the two.
+    /// On a test bench, this torque makes the motion of the joint independent of the transmitted
+    /// torque. Without it, the spring couples the angle to the torque, and no record can
+    /// distinguish the two.
     pub fn step_with_load(
         &self,
         state: &mut RigState<T, N>,
@@ -334,7 +334,7 @@ impl<T: Real, const N: usize> Rig<T, N> {
 }
 
 impl<T: Real, const N: usize> RigState<T, N> {
-    /// Adds dt with compensation: at 1 kHz a plain `f32` clock would drift within minutes.
+    /// Adds dt to a compensated sum. At 1 kHz, a plain `f32` clock would drift within minutes.
     fn tick(&mut self, dt: T) {
         let step = dt - self.carry;
         let time = self.sample.time + step;

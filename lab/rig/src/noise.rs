@@ -1,11 +1,12 @@
-//! Noise from a seed, by the rig's own generator: the same output on every machine.
+//! Noise from a seed, which is the same on every machine.
 
 use bowden::Real;
 
-/// White Gaussian noise of unit variance, deterministic.
+/// Deterministic white Gaussian noise with unit variance.
 ///
-/// Integers from SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), normal deviates from the
-/// polar form of Box and Muller (Marsaglia, Bray 1964). Not for cryptography.
+/// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014) generates the integers. The polar method
+/// (Marsaglia, Bray 1964) converts them to normal deviates. Do not use this generator for
+/// cryptography.
 ///
 /// ```
 /// use bowden_rig::Noise;
@@ -41,16 +42,17 @@ impl Noise {
         mixed(self.state)
     }
 
-    /// Uniform in [0, 1), 53 bits.
+    /// A number with 53 bits, uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         uniform(self.bits())
     }
 
     /// A normal deviate with mean zero and variance one; its magnitude is at most 8.6.
     ///
-    /// It is computed in `T` throughout. In `f32` it equals the value in `f64` except for rounding,
-    /// which may be 3e-4 near zero. A point at the edge of the circle may fall on the other side of
-    /// it (once in ten million); from there on, the deviates of `f32` and `f64` differ.
+    /// All arithmetic uses `T`. In `f32`, the deviate equals that in `f64` except for a rounding
+    /// error of up to 3e-4 near zero. About once in ten million deviates, rounding moves a point
+    /// across the edge of the circle of the polar method. From then on, the deviates in `f32` and
+    /// `f64` differ.
     pub fn normal<T: Real>(&mut self) -> T {
         if let Some(state) = self.spare.take() {
             if let Some((_, second)) = pair(state) {

@@ -1,4 +1,4 @@
-//! The equation of motion, one sub-step at a time.
+//! The equations of motion for one sub-step.
 
 use super::checked::{finite, saturate};
 use super::RigConfig;

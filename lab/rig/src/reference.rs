@@ -1,14 +1,13 @@
-//! The reference for the joint: the torque reference of Nguyen et al. (2018), a gait, and their
-//! rates.
+//! Torque references for the joint, with their derivatives.
 
 use bowden::effect::Motion;
 use bowden::Real;
 
-/// A torque reference: a mean and two sines (Nguyen et al., 2018), or a gait's push-off, optionally
-/// with a ramp.
+/// A torque reference: a mean and two sinusoids (Nguyen et al., 2018), or the push-off of a gait. A
+/// ramp at the start is optional.
 ///
 /// The reference of the paper is `25 + 10·sin(2·pi·0.25·t) + 3·sin(2·pi·0.2·sqrt(3)·t)` \[N·m\]
-/// (section 4.2, Figure 7); its maximum is 38.
+/// (section 4.2, Figure 7). Its maximum is 38 N·m.
 ///
 /// ```
 /// use bowden_rig::Reference;
@@ -39,7 +38,7 @@ enum Task<T> {
 const PUSH: [f64; 3] = [0.2, 0.5, 0.65];
 
 impl<T: Real> Reference<T> {
-    /// The reference of Nguyen et al. (2018), at its full value from the first sample on.
+    /// The reference of Nguyen et al. (2018), with its full value from the first sample.
     #[must_use]
     pub fn paper() -> Self {
         let turn = 2.0 * core::f64::consts::PI;
@@ -56,9 +55,9 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// Steps of an ankle, one per second: 5 N·m, plus a push-off of 30 N·m. The push-off rises from
-    /// 0.2 to 0.5 of the cycle and ends at 0.65, along fifth-order polynomials without a jump in
-    /// rate or acceleration.
+    /// The gait of an ankle with one step per second: 5 N·m, plus a push-off of 30 N·m. The
+    /// push-off rises from 0.2 to 0.5 of the cycle and ends at 0.65. It follows fifth-order
+    /// polynomials with continuous first and second derivatives.
     ///
     /// ```
     /// use bowden_rig::Reference;
@@ -75,7 +74,7 @@ impl<T: Real> Reference<T> {
         }
     }
 
-    /// Period \[s\]; `None` for the reference of Nguyen et al. (2018), which never repeats.
+    /// Period \[s\], or `None` for the reference of Nguyen et al. (2018), which is not periodic.
     #[must_use]
     pub fn period(&self) -> Option<T> {
         match self.task {
@@ -86,7 +85,8 @@ impl<T: Real> Reference<T> {
 
     /// The reference with a smooth rise from zero in the first `seconds` \[s\].
     ///
-    /// The factor is `x²·(3 − 2·x)`; a number that is not positive means no ramp.
+    /// The factor is `x²·(3 − 2·x)`, where x is the fraction of this time. If `seconds` is not
+    /// positive, there is no ramp.
     #[must_use]
     pub fn with_ramp(self, seconds: T) -> Self {
         let ramp = if seconds > T::zero() && seconds.is_finite() {
@@ -97,9 +97,9 @@ impl<T: Real> Reference<T> {
         Self { ramp, ..self }
     }
 
-    /// The reference, shifted and scaled to stay between two values \[N·m\].
+    /// The reference, shifted and scaled to the range from `low` to `high` \[N·m\].
     ///
-    /// If the numbers are not finite or not in ascending order, nothing changes.
+    /// If the two values are not finite or not in ascending order, the reference does not change.
     ///
     /// ```
     /// use bowden_rig::Reference;

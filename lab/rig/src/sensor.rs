@@ -1,11 +1,11 @@
-//! What firmware reads: torque through a converter, angles through an encoder.
+//! The sensors: torque through an A/D converter, and angles through an encoder.
 
 use super::{Noise, RigConfig};
 use bowden::effect::Motion;
 use bowden::signal::clamp;
 use bowden::Real;
 
-/// A torque sensor: first-order lag, white noise, converter.
+/// A torque sensor: first-order lag, white noise and A/D converter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct TorqueSensor<T> {
@@ -53,7 +53,7 @@ impl<T: Real> TorqueSensorState<T> {
     }
 }
 
-/// An encoder, and the rates that firmware derives from it.
+/// An encoder, and the rates that firmware computes from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Encoder<T> {

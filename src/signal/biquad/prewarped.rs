@@ -1,11 +1,12 @@
-//! The tangent of the prewarping, for constants too.
+//! The tangent for the prewarping, as a `const fn`.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// `tan(π·frequency·T)/T`, for a product below 1/2; `π·frequency` in the limit of small products.
+/// `tan(π·frequency·T)/T` for `frequency·T` below 1/2. For a small product the result is
+/// `π·frequency`.
 ///
-/// The computation is in `f64` for every float, without libm: a `const fn` cannot call libm. A
-/// filter in flash must have the bits of a filter that is made at run time.
+/// The computation is in `f64` for every float. It does not call libm, because a `const fn` cannot.
+/// A filter in flash is therefore equal to a filter made at run time.
 pub(super) const fn slope(frequency: f64, sample_time: f64) -> f64 {
     let x = PI * (frequency * sample_time);
     if x <= FRAC_PI_4 {
@@ -17,12 +18,12 @@ pub(super) const fn slope(frequency: f64, sample_time: f64) -> f64 {
     }
 }
 
-/// `sin(x)/x` of `x²`, for x up to π/4: its series, whose next term is below 1e-17.
+/// `sin(x)/x` as a series in `x²`, for x up to π/4. The next term is below 1e-17.
 const fn sine_over(square: f64) -> f64 {
     series(square, 1.0)
 }
 
-/// The cosine of x, of `x²`, likewise.
+/// `cos(x)` as a series in `x²`, for x up to π/4.
 const fn cosine(square: f64) -> f64 {
     series(square, -1.0)
 }
