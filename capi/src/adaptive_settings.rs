@@ -19,7 +19,7 @@ macro_rules! settings {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_estimator_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Initial value of the estimate [unit of the estimate], within its bounds.
                 pub initial: $f,
@@ -98,7 +98,7 @@ macro_rules! settings {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_adaptive_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Form of the law, one of bowden_form.
                 pub form: u32,

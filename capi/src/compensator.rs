@@ -195,11 +195,11 @@ macro_rules! compensator {
             }
 
             /// Reports the actual input of the transmission [input unit] after the last step, if it
-            /// differs from the command of the step: the drive is off, or another controller adds a
-            /// command.
+            /// differs from the command of the step.
             ///
-            /// Call this function between two steps. The hysteresis then follows this input. Only
-            /// the last report after a step counts. A command that is not finite changes nothing
+            /// Call this function between two steps, for example if the drive is off or another
+            /// controller adds a command. The hysteresis then follows this input. Only the last
+            /// report after a step counts. A command that is not finite changes nothing
             /// (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_applied_ $f>](

@@ -26,13 +26,13 @@ macro_rules! edges {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a velocity from the time between counts; see bowden_edge_velocity_step.
+            /// Settings of a velocity estimator for encoder counts; see bowden_edge_velocity_step.
             ///
             /// By default the position does not wrap. You must set all other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_edge_velocity_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Size of one count [channel unit], positive. Positions change by multiples of
                 /// this size.

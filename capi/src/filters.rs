@@ -89,7 +89,7 @@ macro_rules! filters {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_biquad_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Corner of the low-pass or centre of the notch [Hz], positive and below
                 /// 1/(2*sample_time).

@@ -47,13 +47,13 @@ macro_rules! hysteresis {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_cable_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Mode of the transmission, one of bowden_mode.
                 pub mode: u32,
                 /// B of (5) or kappa of (1) [output unit/input unit].
                 pub gain: $f,
-                /// Gain of the hysteresis [output unit].
+                /// Hysteresis gain [output unit].
                 pub kappa_eta: $f,
                 /// T0 of (5) or the offset of (1) [output unit]; 0 by default.
                 pub offset: $f,
@@ -110,7 +110,7 @@ macro_rules! hysteresis {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_hysteresis_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// rho [1/input unit], positive: initial slope of eta.
                 pub rho: $f,

@@ -83,7 +83,7 @@ macro_rules! learning {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_iterative_learning_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Learning gain [command unit/output unit], nonzero, with the sign of the plant
                 /// gain.

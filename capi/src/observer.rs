@@ -38,7 +38,7 @@ macro_rules! observer {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Gain of the nominal plant [output unit/command unit], nonzero.
                 pub gain: $f,
@@ -109,8 +109,8 @@ macro_rules! observer {
             }
 
             /// Processes one sample. Call this function before the step of the controller. `dt` [s]
-            /// is the time since the last call. `sent` [command unit] is the applied command of the
-            /// last call, after all limits. `measured` is in [output unit].
+            /// is the time since the last call. `sent` [command unit] is the command applied since
+            /// the last call, after all limits. `measured` is in [output unit].
             ///
             /// A bad sample holds the estimate (BOWDEN_RESULT_HELD).
             #[no_mangle]

@@ -41,13 +41,13 @@ macro_rules! settings {
             ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
             ///     command = u within the range and the slew-rate limit;  e = y - y_r
             ///
-            /// Defaults: set-point weights b = 1 and c = 0, conditional anti-windup, no slew-rate
-            /// limit, a fallback weight of 4, zero gains and a safe command of 0. You must set
-            /// `limits`, `longest_dt` and `fallback.after`.
+            /// Defaults: b = 1, c = 0, conditional anti-windup, no slew-rate limit, a fallback
+            /// weight of 4, and 0 for the gains and the safe command. You must set `limits`,
+            /// `longest_dt` and `fallback.after`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Proportional gain [command unit/output unit].
                 pub k_p: $f,

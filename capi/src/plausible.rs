@@ -62,7 +62,7 @@ macro_rules! plausible {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_plausible_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Lower end of the plausible range [signal unit].
                 pub low: $f,

@@ -34,7 +34,7 @@ macro_rules! rates {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_rates_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Time constant of both lags [s], positive.
                 pub time_constant: $f,

@@ -81,7 +81,7 @@ macro_rules! relay {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_relay_settings_ $f>] {
-                /// Mark that NAME_INIT sets.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Reference y_r about which the output oscillates [output unit].
                 pub reference: $f,
@@ -99,8 +99,8 @@ macro_rules! relay {
                 pub most_deviation: $f,
                 /// Number of consecutive cycles in the average, at least 2.
                 pub cycles: u32,
-                /// Largest relative deviation of a cycle from the mean of earlier cycles, between 0
-                /// and 1.
+                /// Largest relative deviation of a cycle from the mean of earlier cycles, above 0
+                /// and below 1.
                 pub agreement: $f,
                 /// Maximum duration of the experiment [s], at least `longest_dt`.
                 pub longest_time: $f,
