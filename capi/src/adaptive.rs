@@ -1,4 +1,4 @@
-//! The robust adaptive law, (17)-(26).
+//! The adaptive law, equations (17)-(26).
 
 use crate::adaptive_settings::{bowden_adaptive_settings_f32, bowden_adaptive_settings_f64};
 use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
@@ -8,12 +8,12 @@ use core_bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Applied, Outp
 
 /// Maximum number of regressors of an adaptive law.
 pub const BOWDEN_REGRESSORS: usize = 4;
-/// Size of a bowden_adaptive_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F32_WORDS: usize = 56;
-/// Size of a bowden_adaptive_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F64_WORDS: usize = 104;
 
-/// The law, and the number of regressors that it reads; the others are zero.
+/// The adaptive law and the number of regressors in its settings. All further regressors are zero.
 #[derive(Clone, Copy)]
 pub struct Own<T> {
     pub(crate) law: Adaptive<T, BOWDEN_REGRESSORS>,
@@ -27,18 +27,18 @@ macro_rules! adaptive {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_adaptive_sample_ $f>] {
-                /// Time since the last call [s], also after a bad sample.
+                /// Time since the last call [s], even if that sample was bad.
                 pub dt: $f,
                 /// Reference y_r [N*m].
                 pub reference: $f,
-                /// Reference at the next sample [N*m]; only the first-order form reads it.
+                /// Reference at the next sample [N*m]. Only the first-order form uses it.
                 pub next_reference: $f,
                 /// Measured output torque y [N*m].
                 pub measured: $f,
-                /// Regressors x_i [their own units]: velocity and acceleration in the paper. The
-                /// law ignores regressors beyond the number in its settings.
+                /// Regressors x_i [their own units]; in the paper, velocity and acceleration.
+                /// Entries beyond the number of regressors in the settings are ignored.
                 pub regressors: [$f; BOWDEN_REGRESSORS],
-                /// Feed-forward, added to the law's command [command unit]; 0 for none.
+                /// Feed-forward [command unit], added to the command of the law.
                 pub feed_forward: $f,
             }
 
@@ -60,11 +60,11 @@ macro_rules! adaptive {
                 }
             }
 
-            /// The estimates of the law.
+            /// Estimates of the adaptive law.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_estimates_ $f>] {
-                /// Accumulated error z [N*m*s], (17).
+                /// Accumulated error z of (17) [N*m*s].
                 pub z: $f,
                 /// beta_hat [command unit/(N*m)].
                 pub beta: $f,
@@ -74,8 +74,7 @@ macro_rules! adaptive {
                 pub theta: [$f; BOWDEN_REGRESSORS],
             }
 
-            /// An adaptive law with its state, in the caller's memory; initialised by
-            /// bowden_adaptive_init.
+            /// Adaptive law with its state.
             #[repr(C)]
             pub struct [<bowden_adaptive_ $f>] {
                 /// Private; do not use.
@@ -88,10 +87,9 @@ macro_rules! adaptive {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Checks the settings and starts with the initial estimates.
+            /// Checks the settings and initialises the law with the initial estimates.
             ///
-            /// `about` may be null; otherwise it receives the name of the refused setting. On an
-            /// error the object does not change.
+            /// `about` may be null; otherwise it receives the name of a rejected setting.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_init_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -110,8 +108,8 @@ macro_rules! adaptive {
                 }
             }
 
-            /// Processes one sample; `out` receives the command and its status, as from
-            /// bowden_pid_step.
+            /// Processes one sample. `out` receives the command and its status. Bad samples have
+            /// the same effect as in bowden_pid_step.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_step_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -130,7 +128,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// The present estimates of the law.
+            /// Writes the present estimates to `out`.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_get_estimates_ $f>](
                 law: *const [<bowden_adaptive_ $f>],
@@ -150,9 +148,9 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Reports the command [command unit] that the drive applied after the last step, as
-            /// bowden_pid_applied does. z then moves no further towards this limit of the drive,
-            /// and the estimates do not change.
+            /// Reports the command [command unit] that the drive applied after the last step; see
+            /// bowden_pid_applied. z then moves no further towards the limit of the drive, and the
+            /// estimates do not change.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_applied_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -165,8 +163,8 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Reports at which limit the drive was after the last step, as bowden_pid_at_limit
-            /// does.
+            /// Reports the limit at which the drive was after the last step; see
+            /// bowden_pid_at_limit.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_at_limit_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -180,7 +178,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Acknowledges the fault, as bowden_pid_acknowledge does.
+            /// Acknowledges the fault; see bowden_pid_acknowledge.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_acknowledge_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -192,7 +190,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Resets the accumulated error and the estimates; the applied command is kept, and a
+            /// Resets the accumulated error and the estimates. The applied command is kept, and a
             /// latched safe command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_reset_ $f>](
@@ -206,7 +204,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Prepares a stored object for a start, as bowden_pid_restore does; the estimates are
+            /// Prepares a stored object for a restart; see bowden_pid_restore. The estimates are
             /// kept.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_restore_ $f>](
@@ -220,9 +218,9 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Changes the settings of a running loop without a jump of the command on this sample,
-            /// as bowden_pid_change does. The estimates are kept, each within its new bounds, and a
-            /// latched safe command stays latched.
+            /// Changes the settings of a running loop. The command for `sample` does not jump; see
+            /// bowden_pid_change. The estimates are kept and clamped to their new bounds. A latched
+            /// safe command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_change_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -243,8 +241,8 @@ macro_rules! adaptive {
                 unsafe { told(tried(), about) }
             }
 
-            /// Starts with the initial estimates so that the next step on this sample commands
-            /// `command` [command unit], as bowden_pid_resume does.
+            /// Restarts the law with the initial estimates, so that the next step with this sample
+            /// gives `command` [command unit]. See bowden_pid_resume.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_resume_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -269,7 +267,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
+            /// Sets `latched` to 1 if the safe command is latched, otherwise to 0.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_is_latched_ $f>](
                 law: *const [<bowden_adaptive_ $f>],

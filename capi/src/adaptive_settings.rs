@@ -1,4 +1,4 @@
-//! Settings of the robust adaptive law.
+//! Settings of the adaptive law.
 
 use crate::adaptive::{Own, BOWDEN_REGRESSORS};
 use crate::choices::{bowden_form, bowden_leakage, bowden_on_missing, bowden_smooth_sign};
@@ -12,14 +12,14 @@ use core_bowden::control::{
 macro_rules! settings {
     ($f:ident) => {
         pastey::paste! {
-            /// How one estimate adapts, (24)-(26), with its bounds.
+            /// Settings of one estimate in (24)-(26).
             ///
-            /// Start from NAME_INIT, as the estimates in the settings of the law do. By default the
+            /// The macro of the adaptive law also initialises its estimates. By default the
             /// estimate is fixed at 0, with a gain of 0 and no leakage.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_estimator_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Initial value of the estimate [unit of the estimate], within its bounds.
                 pub initial: $f,
@@ -27,23 +27,23 @@ macro_rules! settings {
                 pub low: $f,
                 /// Upper bound [unit of the estimate].
                 pub high: $f,
-                /// Adaptation gain: gamma, mu or mu_i of (24)-(26), not negative.
+                /// Adaptation gain gamma, mu or mu_i of (24)-(26), not negative.
                 pub gain: $f,
-                /// Prior, the target of the leakage [unit of the estimate]; 0 in the paper.
+                /// Prior [unit of the estimate], the target of the leakage; 0 in the paper.
                 pub prior: $f,
-                /// One of bowden_leakage.
+                /// Leakage method, one of bowden_leakage.
                 pub leakage: u32,
-                /// Largest leakage, not negative [1/s].
+                /// Largest leakage [1/s], not negative.
                 pub leakage_rate: $f,
-                /// Distance from the prior without leakage, for BOWDEN_LEAKAGE_SWITCHING only;
-                /// above zero [unit of the estimate].
+                /// Distance from the prior without leakage [unit of the estimate], positive. Only
+                /// BOWDEN_LEAKAGE_SWITCHING uses it.
                 pub leakage_bound: $f,
             }
 
             marked!([<bowden_estimator_ $f>]);
 
             impl [<bowden_estimator_ $f>] {
-                /// The defaults: fixed at 0.
+                /// Returns the defaults: an estimate fixed at 0.
                 pub const fn defaults() -> Self {
                     Self::fixed(0.0)
                 }
@@ -84,54 +84,61 @@ macro_rules! settings {
                 }
             }
 
-            /// Settings of the adaptive law, (17)-(26).
+            /// Settings of the adaptive law, equations (17)-(26).
             ///
-            /// Start from NAME_INIT. By default: no regressors; k, lambda and epsilon of the paper;
-            /// 5 ms for the form as published; beta_hat fixed at 1, delta_hat and theta_hat at 0;
-            /// tanh; no limit of z; no slew-rate limit; 4 good samples to cancel a bad one; and a
-            /// safe command of 0. These fields must be set: the form (for the first-order form also
-            /// step and plant_gain), limits, longest_dt and `after`.
+            /// Defaults:
+            ///
+            /// - k, lambda and epsilon of the paper, the tanh function, and a time constant of 5
+            ///   ms;
+            /// - beta_hat fixed at 1, delta_hat fixed at 0, and no regressors;
+            /// - no limit of z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
+            ///
+            /// You must set `form`, `limits`, `longest_dt` and `fallback.after`. The first-order
+            /// form also requires `step` and `plant_gain`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_adaptive_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// One of bowden_form.
+                /// Form of the law, one of bowden_form.
                 pub form: u32,
-                /// Form as published: time constant of the filter of the error's rate, 2 to 20 ms
-                /// [s].
+                /// Form as published: filter time constant of the error rate [s], at least 0,
+                /// usually 2 to 20 ms.
                 pub time_constant: $f,
-                /// First-order form, required: longest intended sample time [s].
+                /// First-order form: longest intended sampling period [s], positive.
                 pub step: $f,
-                /// First-order form: upper bound on the plant's gain alpha [N*m/command unit].
+                /// First-order form: upper bound on the plant gain alpha [N*m/command unit],
+                /// positive.
                 pub plant_gain: $f,
-                /// Control gain k, above zero.
+                /// Control gain k, positive.
                 pub gain: $f,
-                /// lambda, above zero [1/s]: weight of the accumulated error, (18).
+                /// lambda [1/s], positive: weight of the accumulated error in (18).
                 pub lambda: $f,
-                /// epsilon, above zero [N*m]: width of the smooth sign.
+                /// epsilon [N*m], positive: width of the smoothed sign function.
                 pub epsilon: $f,
-                /// One of bowden_smooth_sign.
+                /// Smoothed sign function, one of bowden_smooth_sign.
                 pub smooth_sign: u32,
-                /// Estimate of 1/alpha [command unit/(N*m)], (24).
+                /// Estimate of 1/alpha [command unit/(N*m)], adapted by (24).
                 pub beta: [<bowden_estimator_ $f>],
-                /// Estimate of the bound on the disturbance [N*m], (25).
+                /// Estimate of the bound on the disturbance [N*m], adapted by (25).
                 pub delta: [<bowden_estimator_ $f>],
                 /// Number of regressors, at most BOWDEN_REGRESSORS.
                 pub regressors: u32,
-                /// Estimates of theta_i [N*m/unit of the regressor], (26); those from index
-                /// `regressors` on are ignored.
+                /// Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries with
+                /// an index of `regressors` or more are ignored.
                 pub theta: [[<bowden_estimator_ $f>]; BOWDEN_REGRESSORS],
-                /// One of bowden_on_missing for each regressor.
+                /// Response of each regressor to a value that is not finite, one of
+                /// bowden_on_missing.
                 pub missing: [u32; BOWDEN_REGRESSORS],
-                /// Largest magnitude of the accumulated error z, above zero [N*m*s].
+                /// Largest magnitude of the accumulated error z [N*m*s], positive.
                 pub z_limit: $f,
-                /// Normally 0; any other value freezes the estimates.
+                /// 0 lets the estimates adapt; any other value freezes them.
                 pub frozen: u32,
                 /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],
-                /// Longest dt of a good sample, above zero [s]; the first-order form also rejects a
-                /// dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))).
+                /// Longest dt of a good sample [s], positive. The first-order form also rejects a
+                /// dt longer than 1/(lambda*max(1, g*(k + delta.high/epsilon))), with g =
+                /// plant_gain*beta.high.
                 pub longest_dt: $f,
                 /// Fallback after repeated bad samples.
                 pub fallback: [<bowden_fallback_ $f>],
@@ -140,7 +147,7 @@ macro_rules! settings {
             marked!([<bowden_adaptive_settings_ $f>]);
 
             impl [<bowden_adaptive_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,

@@ -1,35 +1,35 @@
-//! Choices for settings of the adaptive law.
+//! Choices in the settings of the adaptive law.
 
-/// Treatment of the error's rate in the law: each form is for one kind of plant.
+/// Treatment of the error rate in the adaptive law. The choice depends on the plant.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_form {
-    /// (23) as published, with a filtered difference of the error: for a plant with inertia.
+    /// For a plant with inertia: (23) as published, with a filtered difference of the error.
     AsPublished = 0,
-    /// The law solved for the error's rate: for a plant that responds within a sample.
+    /// For a plant that responds within one sample: the law solved for the error rate.
     FirstOrder = 1,
 }
 
-/// The smooth sign in (23) and (25).
+/// Smoothed sign function T(x) of (23) and (25).
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_smooth_sign {
     /// tanh(x), as in the paper.
     Tanh = 0,
-    /// x within [-1, 1]: cheaper, with a smaller residual.
+    /// x clamped to [-1, 1]: cheaper than tanh, with a smaller residual x*(1 - T(x)).
     Clamp = 1,
 }
 
-/// Leakage of an estimate to its prior.
+/// Leakage of an estimate towards its prior.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_leakage {
     /// No leakage: only the bounds limit the estimate.
     None = 0,
-    /// Leakage at `leakage_rate` at all times: the sigma of (24)-(26).
+    /// Constant leakage at `leakage_rate`, the sigma of (24)-(26).
     Constant = 1,
-    /// Leakage only if the estimate is further than `leakage_bound` from its prior; the rate
-    /// reaches `leakage_rate` at twice this distance.
+    /// Leakage only beyond `leakage_bound` from the prior. The leakage reaches `leakage_rate` at
+    /// twice this distance.
     Switching = 2,
 }
 
@@ -37,9 +37,9 @@ pub enum bowden_leakage {
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_on_missing {
-    /// A bad sample: the command is held.
+    /// The sample is bad, and the command is held.
     Hold = 0,
-    /// Its term is omitted, the estimates do not change, and the loop stays closed:
-    /// BOWDEN_RESULT_DEGRADED.
+    /// The term of the regressor is omitted, the estimates do not change, and the loop stays closed
+    /// (BOWDEN_RESULT_DEGRADED).
     DropRegressor = 1,
 }

@@ -1,4 +1,4 @@
-//! The inverse of the identified model, as a feed-forward.
+//! Inverse of the identified model as a feed-forward.
 
 use crate::limit_of_drive;
 use crate::model::{channels_f32, channels_f64, counted_f32, counted_f64, BOWDEN_TERMS};
@@ -10,14 +10,14 @@ use core_bowden::model::Source;
 
 /// Maximum number of ranges of a compensator.
 pub const BOWDEN_RANGES: usize = 17;
-/// Source of a range: the transmission's input.
+/// Value of `source` in a range: the input of the transmission.
 pub const BOWDEN_SOURCE_INPUT: u32 = 0xffff_ffff;
-/// Size of a bowden_compensator_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F32_WORDS: usize = 184;
-/// Size of a bowden_compensator_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F64_WORDS: usize = 360;
 
-/// The source of a range; a channel that no term can read is refused later.
+/// Converts the source of a range. The compensator later rejects a channel that no term reads.
 fn source(number: u32) -> Result<Source, Refused> {
     if number == BOWDEN_SOURCE_INPUT {
         return Ok(Source::Input);
@@ -29,11 +29,12 @@ fn source(number: u32) -> Result<Source, Refused> {
 macro_rules! compensator {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Range of one source in the bench record: the effects do not extrapolate beyond it.
+            /// Range of one source in the bench record. The effects do not extrapolate beyond this
+            /// range.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_range_ $f>] {
-                /// The channel, from 0, or BOWDEN_SOURCE_INPUT.
+                /// Channel index, from 0, or BOWDEN_SOURCE_INPUT.
                 pub source: u32,
                 /// Minimum of position, velocity and acceleration.
                 pub low: [<bowden_motion_ $f>],
@@ -45,42 +46,42 @@ macro_rules! compensator {
             #[repr(C)]
             #[derive(Debug, Clone, Copy)]
             pub struct [<bowden_compensator_sample_ $f>] {
-                /// Time since the previous sample, above zero [s].
+                /// Time since the previous sample [s], positive.
                 pub dt: $f,
-                /// Desired output [output unit], such as tau_o [N*m]: the reference, not the
+                /// Desired output [output unit], such as tau_o [N*m]. Use the reference, not the
                 /// measured output.
                 pub desired: $f,
-                /// The present input of the transmission with its rates, for effects that read it.
+                /// Present input of the transmission with its velocity and acceleration, for
+                /// effects that read it.
                 pub input: [<bowden_motion_ $f>],
-                /// The transmitted load: tau_i in torque mode, otherwise a load channel.
+                /// Transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
-                /// All other channels, in the order in the model's file; may be null if there are
+                /// All other channels, in the order of the model file; may be null if there are
                 /// none.
                 pub channels: *const [<bowden_motion_ $f>],
-                /// Number of channels, at most BOWDEN_CHANNELS.
+                /// Number of elements in `channels`, at most BOWDEN_CHANNELS.
                 pub channel_count: usize,
             }
 
-            /// Output of a step of a compensator.
+            /// Output of bowden_compensator_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_compensator_output_ $f>] {
-                /// The transmission's input [input unit], such as tau_i [N*m]; finite.
+                /// Input of the transmission [input unit], such as tau_i [N*m]; finite.
                 pub command: $f,
-                /// Contribution of the effects to the output [output unit], zero on a bad sample.
+                /// Contribution of the effects to the output [output unit]; zero for a bad sample.
                 pub effects: $f,
-                /// The model's hysteresis state, within -1 and 1.
+                /// Hysteresis state of the model, within -1 and 1.
                 pub eta: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input, if there is one.
+                /// Bad input, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
-                /// Index of the term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
+                /// Index of the term, from 0, if `fault` is BOWDEN_FAULT_REGRESSOR.
                 pub regressor: u32,
             }
 
-            /// An inverted model with its state, in the caller's memory; initialised by
-            /// bowden_compensator_init.
+            /// Inverse of a model with its state.
             #[repr(C)]
             pub struct [<bowden_compensator_ $f>] {
                 /// Private; do not use.
@@ -93,15 +94,16 @@ macro_rules! compensator {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Inverts a loaded model, (5)-(7), and starts at zero:
+            /// Inverts a loaded model, equations (5)-(7), and initialises the state at zero:
             ///
             ///     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
             ///
-            /// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`,
-            /// which may be null if `range_count` is 0; a term of the model must read the source of
-            /// each range. The result is BOWDEN_RESULT_ERROR_INADMISSIBLE if the model has no
-            /// inverse. The compensator does not use the model afterwards. On an error the object
-            /// does not change. `about` may be null.
+            /// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
+            /// A term of the model must read the source of each range. `ranges` may be null if
+            /// `range_count` is 0. `about` may be null. The compensator does not use the model
+            /// afterwards.
+            ///
+            /// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_init_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -130,13 +132,13 @@ macro_rules! compensator {
                 unsafe { told(parts(), about) }
             }
 
-            /// Puts a play with this half-width [output unit], zero or more, on the desired torque
-            /// of the cable. Zero, the default after init, means no play.
+            /// Applies a play to the desired torque of the cable. `half_width` [output unit] is at
+            /// least 0; 0, the default, disables the play.
             ///
-            /// A term that reads a velocity from encoder counts reverses the torque at each count.
-            /// After a reversal the inverse is steep, so the command chatters. A half-width a
-            /// little above half of one count's effect on the torque, |gain|*count/(2*time
-            /// constant), removes these reversals. On an error the object does not change.
+            /// A term that reads a velocity from encoder counts makes the desired torque reverse at
+            /// each count. The inverse is steep after a reversal, so the command chatters. A
+            /// half-width slightly above |gain|*count/(2*time constant), half of one count's effect
+            /// on the torque, removes these reversals.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_set_play_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -153,10 +155,10 @@ macro_rules! compensator {
                 unsafe { told(tried(), about) }
             }
 
-            /// Computes, for one sample, the input for which the model's output is `desired`.
+            /// Computes the input for which the output of the model is `desired`.
             ///
-            /// A bad sample leaves the state unchanged and holds the last good command, zero before
-            /// the first one: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
+            /// A bad sample leaves the state unchanged and holds the last good command
+            /// (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_step_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -192,13 +194,13 @@ macro_rules! compensator {
                 })())
             }
 
-            /// Reports the actual input of the transmission [input unit] after the last step if it
-            /// differs from the step's command, for example because the drive is off or another law
-            /// adds a command.
+            /// Reports the actual input of the transmission [input unit] after the last step, if it
+            /// differs from the command of the step.
             ///
-            /// Call this function between two steps. The hysteresis then follows this input, and
-            /// the next step continues from there. If there are two reports after one step, the
-            /// second one applies. A number that is not finite changes nothing: BOWDEN_RESULT_HELD.
+            /// Call this function between two steps, for example if the drive is off or another
+            /// controller adds a command. The hysteresis then follows this input. Only the last
+            /// report after a step counts. A command that is not finite changes nothing
+            /// (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_applied_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -212,13 +214,9 @@ macro_rules! compensator {
                 })())
             }
 
-            /// Reports that the drive was at this limit after the last step: one of
-            /// bowden_saturation. Use it for a drive that does not report its command; otherwise
-            /// use bowden_compensator_applied.
-            ///
-            /// Call this function between two steps. At the upper limit the input of the model does
-            /// not rise; at the lower limit it does not fall. Any other number returns
-            /// BOWDEN_RESULT_ERROR_CHOICE.
+            /// Reports the limit at which the drive was after the last step; see
+            /// bowden_pid_at_limit. The input of the model then does not rise at the upper limit
+            /// and does not fall at the lower limit.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_at_limit_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -233,7 +231,7 @@ macro_rules! compensator {
                 })())
             }
 
-            /// Resets the state to the start, with this hysteresis state, within -1 and 1.
+            /// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_reset_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],

@@ -1,19 +1,19 @@
-//! Velocity of a slow encoder, from the time between its counts.
+//! Velocity of a slow encoder from the time between its counts.
 
 use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_rates, told, Refused};
 use crate::settings::{marked, Marked};
 use core_bowden::signal::{EdgeVelocity, EdgeVelocityState};
 
-/// Size of a bowden_edge_velocity_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F32_WORDS: usize = 8;
-/// Size of a bowden_edge_velocity_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F64_WORDS: usize = 13;
 
 macro_rules! edges {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A velocity from counts with its state; initialised by bowden_edge_velocity_init.
+            /// Velocity estimator for encoder counts, with its state.
             #[repr(C)]
             pub struct [<bowden_edge_velocity_ $f>] {
                 /// Private; do not use.
@@ -26,32 +26,31 @@ macro_rules! edges {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a velocity from the time between counts, see bowden_edge_velocity_step.
+            /// Settings of a velocity estimator for encoder counts; see bowden_edge_velocity_step.
             ///
-            /// Start from NAME_INIT. By default the position does not wrap; all other fields must be
-            /// set.
+            /// By default the position does not wrap. You must set all other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_edge_velocity_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Size of one count, above zero [channel unit]: positions change by multiples of
-                /// it.
+                /// Size of one count [channel unit], positive. Positions change by multiples of
+                /// this size.
                 pub count: $f,
-                /// Time over which counts that come faster are averaged; above zero [s].
+                /// Averaging time for counts at shorter intervals [s], positive.
                 pub time_constant: $f,
-                /// Time without a count after which the velocity is zero; above zero [s]. A speed
-                /// below count/longest_gap reads as zero.
+                /// Time without a count [s], positive, after which the velocity is zero. A speed
+                /// below count/longest_gap therefore reads as zero.
                 pub longest_gap: $f,
-                /// Period of a position that wraps, such as a counter's, above zero [channel unit];
-                /// 0 for none.
+                /// Period [channel unit] of a position that wraps, such as a counter; 0 if the
+                /// position does not wrap.
                 pub period: $f,
             }
 
             marked!([<bowden_edge_velocity_settings_ $f>]);
 
             impl [<bowden_edge_velocity_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -63,19 +62,19 @@ macro_rules! edges {
                 }
             }
 
-            /// Output of a step of a velocity from counts.
+            /// Output of bowden_edge_velocity_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_edge_velocity_output_ $f>] {
-                /// Velocity [channel unit/s]: finite, and zero until two counts are known.
+                /// Velocity [channel unit/s], finite; zero until two counts are known.
                 pub velocity: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input, if there is one.
+                /// Bad input, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
             }
 
-            /// Checks the settings and starts a velocity from counts. `about` may be null.
+            /// Checks the settings and initialises the estimator. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_edge_velocity_init_ $f>](
                 edges: *mut [<bowden_edge_velocity_ $f>],
@@ -95,16 +94,16 @@ macro_rules! edges {
                 unsafe { told(parts().and_then(|inner| Ok(start(edges, inner)?)), about) }
             }
 
-            /// The velocity at a position [channel unit], `dt` [s] after the last call, whether
-            /// that sample was good or bad. With M counts in a time T since the sample with the
-            /// last count:
+            /// Computes the velocity at `position` [channel unit]. `dt` [s] is the time since the
+            /// last call, even if that sample was bad. M is the number of counts in the time T
+            /// since the last sample with a count:
             ///
             ///     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
             ///     |v| <= count/(time since the last count)               at every other sample
             ///
             /// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
             /// BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
-            /// velocity: BOWDEN_RESULT_HELD. `out` is written if the result is not negative.
+            /// velocity (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_edge_velocity_step_ $f>](
                 edges: *mut [<bowden_edge_velocity_ $f>],

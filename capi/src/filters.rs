@@ -1,4 +1,4 @@
-//! Low-pass filters and a notch.
+//! Low-pass filters and a notch filter.
 
 use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -6,16 +6,16 @@ use crate::settings::{marked, Marked};
 use core_bowden::signal::{Biquad, BiquadState, LowPass, LowPassState};
 use core_bowden::{Error, Real};
 
-/// Size of a bowden_low_pass_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_LOW_PASS_F32_WORDS: usize = 4;
-/// Size of a bowden_low_pass_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_LOW_PASS_F64_WORDS: usize = 6;
-/// Size of a bowden_biquad_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_BIQUAD_F32_WORDS: usize = 8;
-/// Size of a bowden_biquad_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_BIQUAD_F64_WORDS: usize = 14;
 
-/// Whether a filter steps, or holds its output.
+/// The result of a filter step: good, or held because of a bad sample or dt.
 fn stepped<T: Real>(sample: T, dt: T) -> bowden_result {
     if sample.is_finite() && dt.is_finite() && dt > T::ZERO {
         bowden_result::Ok
@@ -27,7 +27,7 @@ fn stepped<T: Real>(sample: T, dt: T) -> bowden_result {
 macro_rules! filters {
     ($f:ident, $low_pass:literal, $biquad:literal) => {
         pastey::paste! {
-            /// A first-order low-pass with its state; initialised by bowden_low_pass_init.
+            /// First-order low-pass filter with its state.
             #[repr(C)]
             pub struct [<bowden_low_pass_ $f>] {
                 /// Private; do not use.
@@ -40,8 +40,8 @@ macro_rules! filters {
                 const MAGIC: u64 = $low_pass;
             }
 
-            /// Starts a low-pass with a `time_constant` of at least zero [s], see
-            /// bowden_low_pass_step. At zero the output is the sample. `about` may be null.
+            /// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] is at
+            /// least 0; with 0 the output is the sample. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_low_pass_init_ $f>](
                 filter: *mut [<bowden_low_pass_ $f>],
@@ -55,13 +55,13 @@ macro_rules! filters {
                 unsafe { told(parts().and_then(|inner| Ok(start(filter, inner)?)), about) }
             }
 
-            /// Processes a sample taken `dt` [s] after the last call; `output` receives
+            /// Processes a sample x taken `dt` [s] after the last call. The output y is
             ///
             ///     y+ = y + dt/(time_constant + dt)*(x - y)
             ///
             /// The corner frequency is 1/(2*pi*time_constant) [Hz]. The first good sample starts
             /// the filter at rest. If the sample is not finite, or dt is not positive and finite,
-            /// the last output is held (zero before the first sample): BOWDEN_RESULT_HELD.
+            /// the last output is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_low_pass_step_ $f>](
                 filter: *mut [<bowden_low_pass_ $f>],
@@ -79,31 +79,32 @@ macro_rules! filters {
                 })())
             }
 
-            /// Settings of a second-order low-pass or notch, with s in units of 2*pi*frequency:
+            /// Settings of a second-order low-pass or notch filter, with s in units of
+            /// 2*pi*frequency:
             ///
             ///     low-pass  1/(s^2 + s/q + 1)
             ///     notch     (s^2 + 1)/(s^2 + s/q + 1)
             ///
-            /// Start from NAME_INIT; all fields must be set.
+            /// You must set all fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_biquad_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Corner of the low-pass or centre of the notch, above zero and below
-                /// 1/(2*sample_time) [Hz].
+                /// Corner of the low-pass or centre of the notch [Hz], positive and below
+                /// 1/(2*sample_time).
                 pub frequency: $f,
-                /// Quality factor, above zero. Low-pass: 0.7071 for Butterworth, 0.5 for critical
-                /// damping. Notch: its width at -3 dB is frequency/q [Hz].
+                /// Quality factor, positive. Low-pass: 0.7071 for Butterworth, 0.5 for critical
+                /// damping. Notch: the width at -3 dB is frequency/q [Hz].
                 pub q: $f,
-                /// Nominal sample time, above zero [s].
+                /// Nominal sampling period [s], positive.
                 pub sample_time: $f,
             }
 
             marked!([<bowden_biquad_settings_ $f>]);
 
             impl [<bowden_biquad_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -122,8 +123,8 @@ macro_rules! filters {
                 }
             }
 
-            /// A second-order filter with its state; initialised by bowden_biquad_init_low_pass or
-            /// bowden_biquad_init_notch.
+            /// Second-order filter with its state. Initialise it with bowden_biquad_init_low_pass
+            /// or bowden_biquad_init_notch.
             #[repr(C)]
             pub struct [<bowden_biquad_ $f>] {
                 /// Private; do not use.
@@ -136,7 +137,7 @@ macro_rules! filters {
                 const MAGIC: u64 = $biquad;
             }
 
-            /// Checks the settings and starts a low-pass. `about` may be null.
+            /// Checks the settings and initialises a low-pass filter. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_biquad_init_low_pass_ $f>](
                 filter: *mut [<bowden_biquad_ $f>],
@@ -152,7 +153,7 @@ macro_rules! filters {
                 }
             }
 
-            /// Checks the settings and starts a notch. `about` may be null.
+            /// Checks the settings and initialises a notch filter. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_biquad_init_notch_ $f>](
                 filter: *mut [<bowden_biquad_ $f>],
@@ -168,12 +169,11 @@ macro_rules! filters {
                 }
             }
 
-            /// Filters a sample that was taken `dt` [s] after the last call; `output` receives the
-            /// result.
+            /// Filters a sample taken `dt` [s] after the last call. `output` receives the filtered
+            /// value.
             ///
             /// The first good sample starts the filter at rest. If the sample is not finite, or dt
-            /// is not positive and finite, the last output is held (zero before the first sample):
-            /// BOWDEN_RESULT_HELD.
+            /// is not positive and finite, the last output is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_biquad_step_ $f>](
                 filter: *mut [<bowden_biquad_ $f>],

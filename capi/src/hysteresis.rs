@@ -1,4 +1,4 @@
-//! The Bouc-Wen state, the transmission, and its inverse.
+//! The hysteresis state, the transmission and its inverse.
 
 use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -10,26 +10,26 @@ use core_bowden::transmission::{Inverse, Transmission};
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_mode {
-    /// Torque to torque, (5): y = gain*u - kappa_eta*eta - offset.
+    /// Torque to torque, equation (5): y = gain*u - kappa_eta*eta - offset.
     Torque = 0,
-    /// Displacement to force, (1): y = gain*u + kappa_eta*eta + offset.
+    /// Displacement to force, equation (1): y = gain*u + kappa_eta*eta + offset.
     Displacement = 1,
 }
 
-/// Size of a bowden_hysteresis_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F32_WORDS: usize = 8;
-/// Size of a bowden_hysteresis_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 14;
-/// Size of a bowden_cable_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_CABLE_F32_WORDS: usize = 10;
-/// Size of a bowden_cable_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_CABLE_F64_WORDS: usize = 20;
-/// Size of a bowden_inverse_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
-/// Size of a bowden_inverse_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_INVERSE_F64_WORDS: usize = 20;
 
-/// The result of a step with one number: a good sample or a held one.
+/// The result of a step with one input: good or held.
 fn good(is_good: bool) -> bowden_result {
     if is_good {
         bowden_result::Ok
@@ -41,36 +41,36 @@ fn good(is_good: bool) -> bowden_result {
 macro_rules! hysteresis {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Parameters of the transmission, (1), (2), (5) and (7).
+            /// Parameters of a transmission, equations (1), (2), (5) and (7).
             ///
-            /// Start from NAME_INIT. By default offset and eta are 0; all other fields must be set.
+            /// By default `offset` and `eta` are 0. You must set all other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_cable_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// One of bowden_mode.
+                /// Mode of the transmission, one of bowden_mode.
                 pub mode: u32,
                 /// B of (5) or kappa of (1) [output unit/input unit].
                 pub gain: $f,
-                /// Gain of the hysteresis [output unit].
+                /// Hysteresis gain [output unit].
                 pub kappa_eta: $f,
                 /// T0 of (5) or the offset of (1) [output unit]; 0 by default.
                 pub offset: $f,
-                /// rho, the initial slope of eta; above zero [1/input unit].
+                /// rho [1/input unit], positive: initial slope of eta.
                 pub rho: $f,
-                /// sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
+                /// sigma, at least 1/2. The slope after a reversal is 2*sigma*rho.
                 pub sigma: $f,
-                /// n, the sharpness of the knee; at least 1.
+                /// n, at least 1: sharpness of the knee.
                 pub n: $f,
-                /// The hysteresis state at the start, within -1 and 1; 0 if unknown.
+                /// Initial hysteresis state, within -1 and 1; 0 if unknown.
                 pub eta: $f,
             }
 
             marked!([<bowden_cable_settings_ $f>]);
 
             impl [<bowden_cable_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -104,28 +104,28 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// Settings of a hysteresis (2), (7).
+            /// Settings of a hysteresis, equations (2) and (7).
             ///
-            /// Start from NAME_INIT. By default eta is 0; all other fields must be set.
+            /// By default `eta` is 0. You must set all other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_hysteresis_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// rho, the initial slope of eta; above zero [1/input unit].
+                /// rho [1/input unit], positive: initial slope of eta.
                 pub rho: $f,
-                /// sigma, at least 1/2: the slope after a reversal is 2*sigma*rho.
+                /// sigma, at least 1/2. The slope after a reversal is 2*sigma*rho.
                 pub sigma: $f,
-                /// n, the sharpness of the knee; at least 1.
+                /// n, at least 1: sharpness of the knee.
                 pub n: $f,
-                /// The hysteresis state at the start, within -1 and 1; 0 if unknown.
+                /// Initial hysteresis state, within -1 and 1; 0 if unknown.
                 pub eta: $f,
             }
 
             marked!([<bowden_hysteresis_settings_ $f>]);
 
             impl [<bowden_hysteresis_settings_ $f>] {
-                /// The defaults; fields without a default are 0.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -137,7 +137,7 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// The hysteresis (2), (7) with its state; initialised by bowden_hysteresis_init.
+            /// Hysteresis, equations (2) and (7), with its state.
             #[repr(C)]
             pub struct [<bowden_hysteresis_ $f>] {
                 /// Private; do not use.
@@ -150,7 +150,7 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic;
             }
 
-            /// A transmission (1), (5) with its state; initialised by bowden_cable_init.
+            /// Transmission, equations (1) and (5), with its state.
             #[repr(C)]
             pub struct [<bowden_cable_ $f>] {
                 /// Private; do not use.
@@ -163,8 +163,7 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic + 1;
             }
 
-            /// The inverse (6) of a transmission, with its state; initialised by
-            /// bowden_inverse_init.
+            /// Inverse of a transmission, equation (6), with its state.
             #[repr(C)]
             pub struct [<bowden_inverse_ $f>] {
                 /// Private; do not use.
@@ -177,7 +176,7 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic + 2;
             }
 
-            /// Checks the settings and starts a hysteresis. `about` may be null.
+            /// Checks the settings and initialises a hysteresis. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_init_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -193,9 +192,9 @@ macro_rules! hysteresis {
                 unsafe { told(parts().and_then(|inner| Ok(start(hysteresis, inner)?)), about) }
             }
 
-            /// Processes one input [input unit]; `eta` receives the state, within -1 and 1. The
-            /// first sample only sets the input. If the input is not finite, the last result is
-            /// held: BOWDEN_RESULT_HELD.
+            /// Processes one input sample [input unit]. `eta` receives the hysteresis state, within
+            /// -1 and 1. The first sample only sets the input. If the input is not finite, the last
+            /// state is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_step_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -212,7 +211,7 @@ macro_rules! hysteresis {
                 })())
             }
 
-            /// Checks the parameters and starts a transmission. `about` may be null.
+            /// Checks the parameters and initialises a transmission. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_cable_init_ $f>](
                 cable: *mut [<bowden_cable_ $f>],
@@ -228,9 +227,8 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// Processes one input [input unit]; `output` receives the output [output unit]. If the
-            /// input is not finite, the last output is held (zero before the first sample):
-            /// BOWDEN_RESULT_HELD.
+            /// Processes one input sample [input unit]. `output` receives the output [output unit].
+            /// If the input is not finite, the last output is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_cable_step_ $f>](
                 cable: *mut [<bowden_cable_ $f>],
@@ -247,9 +245,11 @@ macro_rules! hysteresis {
                 })())
             }
 
-            /// Starts the inverse of the transmission with these settings. The result is
-            /// BOWDEN_RESULT_ERROR_INADMISSIBLE if the transmission has no inverse (sigma above
-            /// gain/(2*kappa_eta*rho)).
+            /// Initialises the inverse of the transmission that has these parameters. `about` may
+            /// be null.
+            ///
+            /// There is no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is zero, or if
+            /// the hysteresis opposes the gain and sigma exceeds |gain|/(2*|kappa_eta|*rho).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_init_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],
@@ -267,9 +267,9 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// Processes one desired output [output unit]; `input` receives the input [input unit]
-            /// that produces it. If the value is not finite, the last result is held:
-            /// BOWDEN_RESULT_HELD.
+            /// Processes one desired output [output unit]. `input` receives the input [input unit]
+            /// that produces this output. If the desired output is not finite, the last input is
+            /// held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_step_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],

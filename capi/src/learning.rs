@@ -1,4 +1,4 @@
-//! Iterative learning: a feed-forward from the error of earlier cycles of a repeating task.
+//! Iterative learning control: a feed-forward from the error in earlier cycles of a repeating task.
 
 use crate::object::{kept, read_settings, start, writable, write, Lent, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
@@ -9,17 +9,17 @@ use core_bowden::{Error, Real};
 /// Maximum number of cells of a cycle.
 pub const BOWDEN_CELLS: usize = 65535;
 const _: () = assert!(BOWDEN_CELLS == IterativeLearning::<f32>::MOST_CELLS);
-/// Size of a bowden_iterative_learning_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F32_WORDS: usize = 14;
-/// Size of a bowden_iterative_learning_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F64_WORDS: usize = 18;
 
-/// Starts with both arrays, after all checks. It sets the second array to zero, and the first one
-/// if its values are not kept.
+/// Initialises the object with both arrays after all checks. The function sets `unfiltered` to
+/// zero, and also `learned` if its values are not kept.
 ///
 /// # Safety
-/// The caller's rule of pointers. The arrays satisfy the conditions of [`Lent::new`]; if the values
-/// of the first one are kept, it contains numbers.
+/// The caller's rule of pointers. The arrays satisfy the conditions of [`Lent::new`]. If the values
+/// of `learned` are kept, the array contains numbers.
 unsafe fn begin<
     T: Real,
     O: Object<Inner = (IterativeLearning<T>, IterativeLearningState<T, Lent<T>>)>,
@@ -58,8 +58,9 @@ unsafe fn begin<
 macro_rules! learning {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Iterative learning with its state, except for two arrays that the caller owns;
-            /// initialised by bowden_iterative_learning_init or bowden_iterative_learning_resume.
+            /// Iterative learning controller with its state, except for two arrays that the caller
+            /// owns. Initialise it with bowden_iterative_learning_init or
+            /// bowden_iterative_learning_resume.
             #[repr(C)]
             pub struct [<bowden_iterative_learning_ $f>] {
                 /// Private; do not use.
@@ -72,35 +73,35 @@ macro_rules! learning {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of iterative learning. A cycle is divided into cells of equal phase; with e
-            /// the mean of reference - measured over a cell, and w(k) a triangle of area 1:
+            /// Settings of iterative learning control. A cycle consists of cells of equal phase. e
+            /// is the mean of reference - measured over a cell, and w(k) is a triangle of area 1:
             ///
             ///     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
             ///     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
             ///
-            /// Start from NAME_INIT. By default nothing is forgotten; all other fields must be set.
+            /// By default `forgetting` is 0. You must set all other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_iterative_learning_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Gain of the error, not zero, with the sign of the plant's gain [command
-                /// unit/output unit].
+                /// Learning gain [command unit/output unit], nonzero, with the sign of the plant
+                /// gain.
                 pub gain: $f,
-                /// Largest magnitude of the learned values, above zero [command unit].
+                /// Largest magnitude of the learned values [command unit], positive.
                 pub limit: $f,
-                /// Share of a learned value that is forgotten per cycle, from 0 to 1.
+                /// Fraction of a learned value that is forgotten per cycle, 0 to 1.
                 pub forgetting: $f,
-                /// Number of cells from a command to its effect.
+                /// Number of cells between a command and its effect.
                 pub lead: u16,
-                /// Half-width of the triangle [cells]; 0 means no filter.
+                /// Half-width of the triangle [cells]; 0 disables the filter.
                 pub half_width: u16,
             }
 
             marked!([<bowden_iterative_learning_settings_ $f>]);
 
             impl [<bowden_iterative_learning_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -127,30 +128,27 @@ macro_rules! learning {
                 }
             }
 
-            /// Output of a step of iterative learning.
+            /// Output of bowden_iterative_learning_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_iterative_learning_output_ $f>] {
-                /// Value to add to the command through the feed_forward of a controller [command
-                /// unit]: always finite and within the limit.
+                /// Feed-forward for a controller [command unit], finite and within the limit.
                 pub feed_forward: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input, if there is one.
+                /// Bad input, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
             }
 
-            /// Starts iterative learning over two arrays of `cells` numbers, which it sets to zero.
-            /// `cells` is at least lead + 2*half_width + 9 and at most BOWDEN_CELLS.
+            /// Checks the settings and initialises iterative learning with two arrays of `cells`
+            /// numbers, which it sets to zero. `cells` is at least lead + 2*half_width + 9 and at
+            /// most BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
             ///
-            /// The caller owns the arrays. They must exist, and nothing else may write to them, for
-            /// as long as the object is used. Do not use a local array if the object outlives the
-            /// function. Between two calls the caller may read `learned`, to plot or to store it.
-            /// The arrays must not overlap each other or the object
-            /// (BOWDEN_RESULT_ERROR_INADMISSIBLE), and they serve one object at a time. A copy of
-            /// the object uses the same arrays, so use only one of the two.
-            ///
-            /// On an error the object and the arrays do not change. `about` may be null.
+            /// The caller owns the arrays, which must exist for as long as the object is used. The
+            /// caller may read `learned` between two calls. Nothing else may write to the arrays or
+            /// use them for another object. The arrays must not overlap each other or the object
+            /// (BOWDEN_RESULT_ERROR_INADMISSIBLE). A copy of the object uses the same arrays, so
+            /// use only one of the two objects.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_init_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],
@@ -167,9 +165,9 @@ macro_rules! learning {
                 }
             }
 
-            /// The same as bowden_iterative_learning_init, but with earlier values in `learned`: a
-            /// copy from before a reset, or the array of an object that is no longer used. Values
-            /// are clamped to the limit, and NaN becomes zero. `unfiltered` may have any contents.
+            /// Like bowden_iterative_learning_init, but continues with the values in `learned`,
+            /// such as a copy from before a reset. The function clamps the values to the limit and
+            /// replaces NaN by zero. `unfiltered` may have any contents.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_resume_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],
@@ -186,19 +184,22 @@ macro_rules! learning {
                 }
             }
 
-            /// Processes one sample; call it before the controller's step, with the phase of the
-            /// cycle, from 0 to 1, the reference, and the measured output [output unit]. Set
-            /// `learns` to 0 if a limit has cut the command, the safe command is applied, or the
-            /// task is different. If more than half of a cell's samples have `learns` = 0, the
-            /// errors of the next `lead` cells are ignored too.
+            /// Processes one sample. Call this function before the step of the controller. `phase`
+            /// is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
             ///
-            /// A phase outside 0 to 1 changes nothing and holds the feed-forward:
-            /// BOWDEN_RESULT_HELD. The controller counts such samples as good.
-            /// BOWDEN_RESULT_DEGRADED has two causes. If the reference or the measured output is
-            /// not finite, the feed-forward follows the phase, and nothing is learned. If the phase
-            /// has jumped by more than four cells, the cell before the jump does not learn, and the
-            /// feed-forward jumps with the phase, so give the controller a slew-rate limit. `out`
-            /// is written if the result is not negative.
+            /// Set `learns` to 0 if a limit has cut the command, the safe command is applied, or
+            /// the task is different. If more than half of the samples in a cell have `learns` = 0,
+            /// the errors of the next `lead` cells are ignored too.
+            ///
+            /// A phase outside 0 to 1 changes nothing and holds the feed-forward
+            /// (BOWDEN_RESULT_HELD). The controller counts such a sample as good.
+            /// BOWDEN_RESULT_DEGRADED has two causes:
+            ///
+            /// - The reference or the measured output is not finite. The feed-forward follows the
+            ///   phase, but nothing is learned.
+            /// - The phase has jumped by more than four cells. The cell before the jump does not
+            ///   learn. The feed-forward jumps with the phase, so give the controller a slew-rate
+            ///   limit.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_step_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],

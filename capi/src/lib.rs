@@ -1,11 +1,10 @@
-//! The C interface of bowden: `include/bowden.h`, a static and a shared library.
+//! C interface of bowden: the header `include/bowden.h`, a static library and a shared library.
 //!
-//! Nothing allocates. Every object is a struct that the caller owns: Rust's data between two magic
-//! words. Every function returns a [`bowden_result`]. All unsafe code of this package is in
-//! `object.rs` and behind its functions, which read, check and write the memory behind a pointer.
+//! Nothing allocates memory. Every object is a struct that the caller owns. It contains Rust data
+//! between two magic words. The unsafe code reads, checks and writes memory through the functions
+//! of `object.rs`.
 //!
-//! The head of the header states the rules for a C caller: a pointer is null or points to memory of
-//! its type, and no object is used from two threads at once.
+//! The head of the header gives the rules for a C caller.
 // On bare metal no_std; elsewhere the static library needs std for its panic handler alone.
 #![cfg_attr(target_os = "none", no_std)]
 #![allow(non_camel_case_types)]
@@ -57,7 +56,7 @@ pub use rates::*;
 pub use relay::*;
 pub use result::*;
 
-/// Nothing in the library panics, but the linker needs a handler.
+/// Required by the linker. No function of the library panics.
 #[cfg(all(target_os = "none", not(test)))]
 #[panic_handler]
 fn stop(_: &core::panic::PanicInfo) -> ! {

@@ -1,4 +1,4 @@
-//! The identified model, from the bytes of a model file.
+//! The identified model, loaded from the bytes of a model file.
 
 use crate::object::{kept, read, read_all, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -11,17 +11,17 @@ use core_bowden::model::{Model, ModelState, Sample, Source};
 pub const BOWDEN_TERMS: usize = 16;
 /// Maximum number of channels of a sample.
 pub const BOWDEN_CHANNELS: usize = 16;
-/// Maximum number of bytes of a model, which is more than any model with BOWDEN_TERMS terms needs.
+/// Maximum number of bytes of a model. No model with BOWDEN_TERMS terms exceeds this limit.
 pub const BOWDEN_MODEL_BYTES: usize = 2048;
-/// Size of a bowden_model_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
-/// Size of a bowden_model_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_MODEL_F64_WORDS: usize = 216;
 
 /// The checksum that `bowden identify --model-out` writes after the model.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
-/// Whether a model reads at most as many channels as a sample can hold.
+/// Whether a sample can contain every channel that the model reads.
 fn reads_what_there_is<T: core_bowden::Real>(model: &Model<T, BOWDEN_TERMS>) -> bool {
     model.terms().iter().all(|term| match term.source {
         Source::Input => true,
@@ -32,8 +32,7 @@ fn reads_what_there_is<T: core_bowden::Real>(model: &Model<T, BOWDEN_TERMS>) -> 
 macro_rules! model {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// An identified model with its state, in the caller's memory; initialised by
-            /// bowden_model_load.
+            /// Identified model with its state. Initialise it with bowden_model_load.
             #[repr(C)]
             pub struct [<bowden_model_ $f>] {
                 /// Private; do not use.
@@ -50,20 +49,20 @@ macro_rules! model {
             #[repr(C)]
             #[derive(Debug, Clone, Copy)]
             pub struct [<bowden_model_sample_ $f>] {
-                /// Time since the previous sample, above zero also at the first sample [s].
+                /// Time since the previous sample [s], positive even at the first sample.
                 pub dt: $f,
-                /// The transmission's input, x or tau_i, with its rates.
+                /// Input of the transmission (x or tau_i) with its velocity and acceleration.
                 pub input: [<bowden_motion_ $f>],
-                /// The transmitted load: tau_i in torque mode, otherwise a load channel.
+                /// Transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
-                /// All other channels, in the order in the model's file; may be null if there are
+                /// All other channels, in the order of the model file; may be null if there are
                 /// none.
                 pub channels: *const [<bowden_motion_ $f>],
-                /// Number of channels, at most BOWDEN_CHANNELS.
+                /// Number of elements in `channels`, at most BOWDEN_CHANNELS.
                 pub channel_count: usize,
             }
 
-            /// The channels of a sample, in the crate's own form.
+            /// Converts the channels of a sample to the types of the Rust crate.
             ///
             /// # Safety
             /// `from` is null or points to `count` motions.
@@ -77,7 +76,7 @@ macro_rules! model {
                 Ok(channels)
             }
 
-            /// The number of a sample's channels that count.
+            /// The first `count` channels of a sample.
             pub(crate) fn [<counted_ $f>](
                 channels: &[Motion<$f>; BOWDEN_CHANNELS],
                 count: usize,
@@ -85,17 +84,19 @@ macro_rules! model {
                 channels.get(..count).unwrap_or(channels)
             }
 
-            /// Loads a model from the bytes that `bowden identify --model-out FILE.postcard` or
-            /// `bowden export --c` writes, with four bytes of CRC-32 at the end, and starts it.
+            /// Loads a model and initialises its state. `bowden identify --model-out FILE.postcard`
+            /// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. The
+            /// object does not use the bytes afterwards.
             ///
-            /// `length` is the length of the model, not of a larger array or sector: bytes after
-            /// the CRC-32 are refused like damaged bytes. `eta` is the hysteresis state at the
-            /// start, within -1 and 1; 0 if unknown. BOWDEN_RESULT_ERROR_MODEL: there are damaged
-            /// or surplus bytes, the precision or the version is another one, or there are more
-            /// than BOWDEN_TERMS terms. `about`, which may be null, is "checksum" for damaged or
-            /// surplus bytes. BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel with a number of
-            /// BOWDEN_CHANNELS or more, or there are more than BOWDEN_MODEL_BYTES bytes. The object
-            /// does not use the bytes afterwards. On an error the object does not change.
+            /// `length` is the length of the model including the CRC-32, not the length of a larger
+            /// array or sector. `eta` is the initial hysteresis state, within -1 and 1; 0 if
+            /// unknown. `about` may be null. Errors:
+            ///
+            /// - BOWDEN_RESULT_ERROR_MODEL: bytes are damaged or surplus (`about` is "checksum"),
+            ///   the bytes have the other precision or another version, or there are more than
+            ///   BOWDEN_TERMS terms.
+            /// - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
+            ///   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_load_ $f>](
                 model: *mut [<bowden_model_ $f>],
@@ -124,13 +125,13 @@ macro_rules! model {
                 }
             }
 
-            /// Processes one sample; `output` receives the predicted output [output unit]:
+            /// Processes one sample. `output` receives the predicted output [output unit]:
             ///
             ///     y = transmission(input, eta) + sum of gain*regressor
             ///
-            /// A bad sample (dt is not positive, a channel is missing, or a number that the model
-            /// reads is not finite) leaves the state unchanged and returns the last good output, 0
-            /// before the first one: BOWDEN_RESULT_HELD.
+            /// A sample is bad if dt is not positive, a channel is missing, or a number that the
+            /// model reads is not finite. A bad sample leaves the state unchanged and holds the
+            /// last good output (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_step_ $f>](
                 model: *mut [<bowden_model_ $f>],
@@ -156,7 +157,7 @@ macro_rules! model {
                 })())
             }
 
-            /// The hysteresis state, within -1 and 1.
+            /// Writes the hysteresis state, within -1 and 1, to `eta`.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_eta_ $f>](
                 model: *const [<bowden_model_ $f>],
@@ -170,7 +171,7 @@ macro_rules! model {
                 })())
             }
 
-            /// Resets the state to the start, with this hysteresis state.
+            /// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_reset_ $f>](
                 model: *mut [<bowden_model_ $f>],
@@ -186,7 +187,7 @@ macro_rules! model {
     };
 }
 
-/// The bytes from the caller.
+/// Returns the bytes of the caller.
 ///
 /// # Safety
 /// `bytes` is null or points to `length` bytes that nobody writes meanwhile.
@@ -201,7 +202,7 @@ unsafe fn readable<'a>(bytes: *const u8, length: usize) -> Result<&'a [u8], Refu
     Ok(unsafe { slice::from_raw_parts(bytes, length) })
 }
 
-/// Whether the checksum after the bytes is correct.
+/// Whether the checksum at the end of the bytes is correct.
 fn is_whole(bytes: &[u8]) -> bool {
     let Some((model, checksum)) = bytes.split_last_chunk::<4>() else {
         return false;

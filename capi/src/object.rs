@@ -1,8 +1,8 @@
 //! Reads, checks and writes the memory behind a pointer from C.
 //!
-//! An [`Object`] is memory that the caller owns: a magic word, Rust's data, and the inverted magic
-//! word. The first word reveals uninitialised memory, except with a probability of 2^-64. The last
-//! word reveals a write beyond the end of an array.
+//! An [`Object`] is memory that the caller owns. It contains a magic word, Rust data, and the
+//! inverted magic word. The first word reveals uninitialised memory, except with a probability of
+//! 2^-64. The last word reveals a write beyond the end of an array.
 
 use crate::bowden_result;
 use crate::result::Refused;
@@ -21,7 +21,7 @@ pub(crate) unsafe trait Object: Sized {
     type Inner: Copy;
     /// The magic word, different for every type.
     const MAGIC: u64;
-    /// Checks that the data fits between two words and is aligned there.
+    /// Checks that the data fits between the two words and is aligned.
     const FITS: () = assert!(
         size_of::<Self::Inner>() + 2 * size_of::<u64>() <= size_of::<Self>()
             && align_of::<Self::Inner>() <= align_of::<Self>()
@@ -51,7 +51,7 @@ fn is_placed<X>(at: *const X) -> Result<(), bowden_result> {
     }
 }
 
-/// Puts `inner` into an object, whatever it contained.
+/// Initialises an object with `inner` and overwrites its previous contents.
 ///
 /// # Safety
 /// `object` is null or points to writable memory of its type.
@@ -71,7 +71,7 @@ pub(crate) unsafe fn start<O: Object>(
     Ok(())
 }
 
-/// Whether an object was initialised.
+/// Checks that an object was initialised.
 ///
 /// # Safety
 /// `object` is null or points to memory of its type.
@@ -92,7 +92,7 @@ unsafe fn is_started<O: Object>(object: *const O) -> Result<(), bowden_result> {
     }
 }
 
-/// The data of an object that was initialised.
+/// The data of an initialised object.
 ///
 /// # Safety
 /// `object` is null or points to memory of its type that nobody else uses meanwhile.
@@ -107,7 +107,7 @@ pub(crate) unsafe fn kept<'a, O: Object>(
     }
 }
 
-/// The same for an object that is only read.
+/// The data of an initialised object, for reading only.
 ///
 /// # Safety
 /// `object` is null or points to memory of its type that nobody writes meanwhile.
@@ -119,21 +119,22 @@ pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inne
     }
 }
 
-/// A value from the caller, made of numbers, for which every bit pattern is valid.
+/// Reads a value from the caller. Every bit pattern of the value is valid, because it consists of
+/// numbers.
 ///
 /// # Safety
-/// `from` is null or points to a value of its type, which is made of numbers and pointers.
+/// `from` is null or points to a value of its type, which consists of numbers and pointers.
 pub(crate) unsafe fn read<X: Copy>(from: *const X) -> Result<X, bowden_result> {
     is_placed(from)?;
     // SAFETY: placed, and of numbers and pointers only.
     Ok(unsafe { ptr::read(from) })
 }
 
-/// Settings from the caller. The mark is read before the other fields, so nothing else is read from
-/// memory that is not this struct.
+/// Reads settings from the caller. The mark is read first; without it nothing else is read.
 ///
 /// # Safety
-/// `from` is null or points to a `u32`; where that is the mark, to a value of its type.
+/// `from` is null or points to a `u32`. If that word is the mark, `from` points to a value of its
+/// type.
 pub(crate) unsafe fn read_settings<S: Marked>(from: *const S) -> Result<S, Refused> {
     is_placed(from)?;
     // SAFETY: placed, and a `u32` is first.
@@ -142,10 +143,10 @@ pub(crate) unsafe fn read_settings<S: Marked>(from: *const S) -> Result<S, Refus
     Ok(unsafe { ptr::read(from) })
 }
 
-/// The values of an array, as many as there are places; for an empty array the pointer may be null.
+/// Reads `count` values of an array into `places`. The pointer to an empty array may be null.
 ///
 /// # Safety
-/// `from` is null or points to so many values, made of numbers.
+/// `from` is null or points to `count` values, which consist of numbers.
 pub(crate) unsafe fn read_all<X: Copy, Y>(
     from: *const X,
     count: usize,
@@ -166,7 +167,7 @@ pub(crate) unsafe fn read_all<X: Copy, Y>(
     Ok(())
 }
 
-/// Writes a value to the caller's memory and overwrites whatever was there.
+/// Writes a value to the memory of the caller.
 ///
 /// # Safety
 /// `to` is null or points to writable memory of its type.
@@ -177,12 +178,12 @@ pub(crate) unsafe fn write<X: Copy>(to: *mut X, value: X) -> Result<(), bowden_r
     Ok(())
 }
 
-/// Checks that a value can be written there, before a step changes its state.
+/// Checks that a pointer is writable, before a step changes its state.
 pub(crate) fn writable<X>(to: *const X) -> Result<(), bowden_result> {
     is_placed(to)
 }
 
-/// An array of numbers that the caller lends to an object while the object is used.
+/// An array of numbers that the caller lends to an object for as long as the object is used.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub(crate) struct Lent<X> {
@@ -191,11 +192,11 @@ pub(crate) struct Lent<X> {
 }
 
 impl<X: Copy> Lent<X> {
-    /// An array that is placed and lies within the memory that a pointer can reach.
+    /// Checks that the array is aligned and lies within the address space.
     ///
     /// # Safety
-    /// `first` is null or points to writable memory for so many numbers, which stays so, and is
-    /// used by nobody else during a call, for as long as this or a copy of it is used.
+    /// `first` is null or points to writable memory for `count` numbers. The memory stays valid for
+    /// as long as the array or a copy of it is used, and nobody else uses it during a call.
     pub(crate) unsafe fn new(first: *mut X, count: usize) -> Result<Self, bowden_result> {
         is_placed(first)?;
         let end = count
@@ -208,23 +209,23 @@ impl<X: Copy> Lent<X> {
         }
     }
 
-    /// The addresses of its bytes.
+    /// The addresses of the bytes.
     fn bytes(&self) -> Range<usize> {
         self.first.addr()..self.first.wrapping_add(self.count).addr()
     }
 
-    /// Whether the array shares a byte with the other one.
+    /// Whether the two arrays share a byte.
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         meet(&self.bytes(), &other.bytes())
     }
 
-    /// Whether the array shares a byte with the object.
+    /// Whether the array and the object share a byte.
     pub(crate) fn overlaps_object<O: Object>(&self, object: *const O) -> bool {
         let end = object.wrapping_add(1);
         meet(&self.bytes(), &(object.addr()..end.addr()))
     }
 
-    /// Writes the same number to every place, whatever was there.
+    /// Writes the same number to every element.
     pub(crate) fn fill(&mut self, value: X) {
         for index in 0..self.count {
             // SAFETY: writable memory for so many, as of `new`.
@@ -253,7 +254,7 @@ impl<X> AsMut<[X]> for Lent<X> {
     }
 }
 
-/// A literal with a NUL at its end.
+/// A literal that ends with a NUL.
 pub(crate) fn read_text(text: &'static str) -> &'static CStr {
     CStr::from_bytes_with_nul(text.as_bytes()).unwrap_or(c"")
 }

@@ -1,4 +1,4 @@
-//! The disturbance observer: estimates and compensates friction and load.
+//! The disturbance observer estimates and compensates friction and load.
 
 use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
@@ -6,15 +6,15 @@ use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 
-/// Size of a bowden_observer_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_OBSERVER_F32_WORDS: usize = 14;
-/// Size of a bowden_observer_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_OBSERVER_F64_WORDS: usize = 25;
 
 macro_rules! observer {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// An observer with its state; initialised by bowden_observer_init.
+            /// Disturbance observer with its state.
             #[repr(C)]
             pub struct [<bowden_observer_ $f>] {
                 /// Private; do not use.
@@ -31,36 +31,36 @@ macro_rules! observer {
             ///
             ///     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
             ///
-            /// for a motor with inertia J and damping c that works against a stiffness K: wn =
-            /// sqrt(K/J), zeta = c/(2*sqrt(K*J)). If wn and gain are uncertain, choose low values.
+            /// For a motor with inertia J and damping c against a stiffness K, wn = sqrt(K/J) and
+            /// zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
             ///
-            /// Start from NAME_INIT. By default the latency is 0; all other fields must be set.
+            /// By default `latency` is 0. You must set all other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Gain of the nominal plant, not zero [output unit/command unit].
+                /// Gain of the nominal plant [output unit/command unit], nonzero.
                 pub gain: $f,
-                /// wn of the nominal plant, above zero [rad/s].
+                /// wn of the nominal plant [rad/s], positive.
                 pub natural_frequency: $f,
-                /// zeta of the nominal plant, zero or above.
+                /// zeta of the nominal plant, at least 0.
                 pub damping_ratio: $f,
-                /// tau of the filter Q = 1/(tau*s + 1)^2, above zero [s].
+                /// Time constant tau of the filter Q = 1/(tau*s + 1)^2 [s], positive.
                 pub time_constant: $f,
-                /// Largest magnitude of the estimate, above zero [command unit].
+                /// Largest magnitude of the estimate [command unit], positive.
                 pub limit: $f,
-                /// Longest dt of a good sample, above zero [s].
+                /// Longest dt of a good sample [s], positive.
                 pub longest_dt: $f,
-                /// Time from a command to its effect in the measured output, without the response
-                /// of the nominal plant; zero or above [s].
+                /// Delay [s] from a command to the measured output, without the response of the
+                /// nominal plant; at least 0.
                 pub latency: $f,
             }
 
             marked!([<bowden_observer_settings_ $f>]);
 
             impl [<bowden_observer_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -75,20 +75,19 @@ macro_rules! observer {
                 }
             }
 
-            /// Output of a step of an observer.
+            /// Output of bowden_observer_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_observer_output_ $f>] {
-                /// Value to add to the command through the feed_forward of a controller [command
-                /// unit]: always finite and within the limit.
+                /// Feed-forward for a controller [command unit], finite and within the limit.
                 pub estimate: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input, if there is one.
+                /// Bad input, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
             }
 
-            /// Starts an observer. `about` may be null.
+            /// Checks the settings and initialises an observer. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_init_ $f>](
                 observer: *mut [<bowden_observer_ $f>],
@@ -109,12 +108,11 @@ macro_rules! observer {
                 unsafe { told(parts().and_then(|inner| Ok(start(observer, inner)?)), about) }
             }
 
-            /// Processes one sample; call it before the controller's step, with `dt` since the last
-            /// call [s], the applied command of the last call after all limits [command unit], and
-            /// the measured output [output unit].
+            /// Processes one sample. Call this function before the step of the controller. `dt` [s]
+            /// is the time since the last call. `sent` [command unit] is the command applied since
+            /// the last call, after all limits. `measured` is in [output unit].
             ///
-            /// A bad sample holds the estimate: BOWDEN_RESULT_HELD. `out` is written if the result
-            /// is not negative.
+            /// A bad sample holds the estimate (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_step_ $f>](
                 observer: *mut [<bowden_observer_ $f>],
@@ -135,8 +133,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// The command [command unit] for which the nominal plant follows the desired output,
-            /// given with its rates and ahead of time by the latency.
+            /// Computes the command [command unit] for which the nominal plant follows a motion.
+            /// `wanted` is the motion desired one latency later.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_feed_forward_ $f>](
                 observer: *const [<bowden_observer_ $f>],
@@ -152,8 +150,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// Resets the state to the start. Call this function after the drive was off, because a
-            /// command that did not reach the motor must not count.
+            /// Resets the state. Call this function after the drive was off, because a command that
+            /// did not reach the motor must not count.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_reset_ $f>](
                 observer: *mut [<bowden_observer_ $f>],

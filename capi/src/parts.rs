@@ -1,26 +1,26 @@
-//! Types that several parts of the interface share: limits, fallback, motion, output.
+//! Types that several parts of the interface share: limits, fallback, motion and output.
 
 use crate::result::{bowden_fault, bowden_result, of_status, Refused};
 use core_bowden::control::{Applied, Fallback, Limits, Output};
 use core_bowden::effect::Motion;
 
-/// For `after` of a fallback: holds the last good command indefinitely. This is for a simulation,
-/// not for a machine.
+/// Value of `after` in a fallback that holds the last good command indefinitely. Use it in a
+/// simulation, not on a machine.
 pub const BOWDEN_HOLD_FOR_EVER: u32 = 0xffff_ffff;
 
-/// The active limit of a command or a drive.
+/// Active limit of a command or of a drive.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_saturation {
-    /// No limit: the command was applied.
+    /// No active limit: the command was applied.
     None = 0,
-    /// The applied command is below the law's command.
+    /// The applied command is below the command of the controller.
     Upper = 1,
-    /// The applied command is above the law's command.
+    /// The applied command is above the command of the controller.
     Lower = 2,
 }
 
-/// The response of a drive at this limit, which cut the command by an unknown amount.
+/// The response of a drive at this limit, which changed the command by an unknown amount.
 pub(crate) fn limit_of_drive<T>(saturation: u32) -> Result<Applied<T>, Refused> {
     match saturation {
         s if s == bowden_saturation::None as u32 => Ok(Applied::AsCommanded),
@@ -39,14 +39,14 @@ macro_rules! parts {
             pub struct [<bowden_limits_ $f>] {
                 /// Lower limit of the command [command unit].
                 pub low: $f,
-                /// Upper limit of the command [command unit]; above `low`.
+                /// Upper limit of the command [command unit], above `low`.
                 pub high: $f,
-                /// Slew-rate limit, above zero [command unit/s]; 0 for none.
+                /// Slew-rate limit [command unit/s], at least 0; 0 disables this limit.
                 pub slew: $f,
             }
 
             impl [<bowden_limits_ $f>] {
-                /// An empty range, which is refused until both ends are set.
+                /// An empty range, which is rejected until both ends are set.
                 pub(crate) const UNSET: Self = Self { low: $f::MAX, high: $f::MIN, slew: 0.0 };
 
                 pub(crate) fn limits(&self) -> Result<Limits<$f>, Refused> {
@@ -55,19 +55,20 @@ macro_rules! parts {
                 }
             }
 
-            /// The safe command after repeated bad samples.
+            /// Safe command after repeated bad samples.
             ///
-            /// A bad sample adds the weight to a fault counter, and a good sample
-            /// subtracts 1. At after*weight the safe command is applied until it is acknowledged.
+            /// A bad sample adds `weight` to a fault counter, and a good sample subtracts 1. When
+            /// the counter reaches after*weight, the safe command is applied until the fault is
+            /// acknowledged.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_fallback_ $f>] {
-                /// Number of bad samples in a row after which the safe command is applied, at least
-                /// 1; BOWDEN_HOLD_FOR_EVER for never.
+                /// Number of consecutive bad samples at which the safe command is applied, at least
+                /// 1, or BOWDEN_HOLD_FOR_EVER.
                 pub after: u32,
-                /// Number of good samples that cancel a bad one, at least 1; 4 is usual.
+                /// Number of good samples that cancel a bad one, at least 1, usually 4.
                 pub weight: u32,
-                /// The safe command [command unit], within the limits.
+                /// Safe command [command unit], within the limits.
                 pub command: $f,
             }
 
@@ -80,7 +81,7 @@ macro_rules! parts {
                 }
             }
 
-            /// Position, velocity and acceleration of one channel, in its own units and seconds.
+            /// Position, velocity and acceleration of one channel.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq, Default)]
             pub struct [<bowden_motion_ $f>] {
@@ -110,17 +111,17 @@ macro_rules! parts {
                 }
             }
 
-            /// Output of a step of a controller.
+            /// Output of a controller step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_output_ $f>] {
-                /// Command for the drive [command unit]: finite and within the limits.
+                /// Command for the drive [command unit], finite and within the limits.
                 pub command: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input, if there is one.
+                /// Bad input, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
-                /// Index of the regressor or term, from 0, if the fault is BOWDEN_FAULT_REGRESSOR.
+                /// Index of the bad regressor, from 0, if `fault` is BOWDEN_FAULT_REGRESSOR.
                 pub regressor: u32,
             }
 

@@ -1,4 +1,4 @@
-//! PI, PID and PIV.
+//! PI, PID and PIV controllers.
 
 use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
@@ -9,27 +9,27 @@ use crate::{
 use crate::{bowden_saturation, limit_of_drive};
 use core_bowden::control::{Applied, Output, Pid, PidInput, PidState, PidTerms};
 
-/// Size of a bowden_pid_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_PID_F32_WORDS: usize = 24;
-/// Size of a bowden_pid_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_PID_F64_WORDS: usize = 40;
 
 macro_rules! pid {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// One sample for a PI, PID or PIV.
+            /// One sample for a PI, PID or PIV controller.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_sample_ $f>] {
-                /// Time since the last call [s], also after a bad sample.
+                /// Time since the last call [s], even if that sample was bad.
                 pub dt: $f,
                 /// Reference y_r [output unit], such as [N*m].
                 pub reference: $f,
                 /// Measured output y [output unit], such as [N*m].
                 pub measured: $f,
-                /// Measured distal velocity [rad/s]; only PIV (16) reads it.
+                /// Measured distal velocity [rad/s]. Only a PIV uses it.
                 pub velocity: $f,
-                /// Feed-forward, added to the command before the limits [command unit]; 0 for none.
+                /// Feed-forward [command unit], added to the command before the limits.
                 pub feed_forward: $f,
             }
 
@@ -45,7 +45,8 @@ macro_rules! pid {
                 }
             }
 
-            /// Every term of the last good sample; they add up to `unlimited`.
+            /// Terms of the command at the last good sample. The terms from `proportional` to
+            /// `feed_forward` add up to `unlimited`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_terms_ $f>] {
@@ -53,15 +54,15 @@ macro_rules! pid {
                 pub error: $f,
                 /// -k_p*(y - b*y_r) [command unit].
                 pub proportional: $f,
-                /// -k_i*integral(e), after the anti-windup [command unit].
+                /// -k_i*integral(e) after anti-windup [command unit].
                 pub integral: $f,
-                /// -k_d*d/dt(y - c*y_r), filtered [command unit]; zero with PIV.
+                /// -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV.
                 pub derivative: $f,
-                /// -k_d*v_d of PIV [command unit]; zero with PI and PID.
+                /// -k_d*v_d [command unit]; 0 for a PI or PID.
                 pub velocity: $f,
-                /// Feed-forward of the sample [command unit].
+                /// Feed-forward [command unit].
                 pub feed_forward: $f,
-                /// The sum before range and slew-rate limit [command unit].
+                /// Command before limiting [command unit].
                 pub unlimited: $f,
                 /// 1 if the range or the slew-rate limit changed the command, otherwise 0.
                 pub saturated: u32,
@@ -82,8 +83,7 @@ macro_rules! pid {
                 }
             }
 
-            /// A PI, PID or PIV with its state, in the caller's memory; initialised by
-            /// bowden_pid_init. The object may be copied and moved as a whole.
+            /// PI, PID or PIV controller with its state.
             #[repr(C)]
             pub struct [<bowden_pid_ $f>] {
                 /// Private; do not use.
@@ -96,12 +96,12 @@ macro_rules! pid {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a plain PI (15): full set-point weight, conditional anti-windup, and no
-            /// slew-rate limit; 4 good samples cancel a bad one.
+            /// Writes the settings of a PI, equation (15). All fields without an argument have
+            /// their defaults.
             ///
-            /// `low` and `high` [command unit] are the limits of the drive, `longest_dt` [s] is the
-            /// longest sample time, and `safe` [command unit] is the command from
-            /// the `after`-th consecutive bad sample onward. bowden_pid_init checks the numbers.
+            /// `low` and `high` [command unit] are the command limits, and `longest_dt` [s] is the
+            /// longest dt of a good sample. `safe` [command unit] is the command from the
+            /// `after`-th consecutive bad sample onward. bowden_pid_init checks the values.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_settings_pi_ $f>](
                 settings: *mut [<bowden_pid_settings_ $f>],
@@ -125,10 +125,9 @@ macro_rules! pid {
                 code(unsafe { write(settings, value) }.map(|()| bowden_result::Ok).map_err(Refused::from))
             }
 
-            /// Checks the settings and starts with a new state.
+            /// Checks the settings and initialises the controller.
             ///
-            /// `about` may be null; otherwise it receives the name of the refused setting. On an
-            /// error the object does not change.
+            /// `about` may be null; otherwise it receives the name of a rejected setting.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_init_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -144,13 +143,11 @@ macro_rules! pid {
                 }
             }
 
-            /// Processes one sample; `out` receives the command and its status.
+            /// Processes one sample. `out` receives the command and its status.
             ///
-            /// A bad sample (NaN, an infinity, a dt that is not positive or too long) leaves the
-            /// state unchanged and holds the last good command: BOWDEN_RESULT_HELD. After too many
-            /// bad samples the safe command is applied until bowden_pid_acknowledge, even if later
-            /// samples are good: BOWDEN_RESULT_SAFE. `out` is written if the result is not
-            /// negative.
+            /// A bad sample leaves the state unchanged and holds the last good command
+            /// (BOWDEN_RESULT_HELD). After too many bad samples the safe command is applied until
+            /// bowden_pid_acknowledge, even if later samples are good (BOWDEN_RESULT_SAFE).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_step_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -168,8 +165,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Every term of the last good sample, for telemetry; all terms are zero before the
-            /// first one.
+            /// Writes the terms of the last good sample to `out`, for telemetry. All terms are zero
+            /// before the first good sample.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_get_terms_ $f>](
                 pid: *const [<bowden_pid_ $f>],
@@ -184,11 +181,11 @@ macro_rules! pid {
             }
 
             /// Reports the command [command unit] that the drive applied after the last step, if it
-            /// differs from the step's command: a drive that is off applies 0.
+            /// differs from the command of the step. A drive that is off applies 0.
             ///
             /// Call this function between two steps. The slew-rate limit, anti-windup and a
-            /// bumpless start then continue from this command. A number that is not finite changes
-            /// nothing: BOWDEN_RESULT_HELD.
+            /// bumpless start then continue from this command. A command that is not finite changes
+            /// nothing (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_applied_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -202,12 +199,13 @@ macro_rules! pid {
                 })())
             }
 
-            /// Reports that the drive was at this limit after the last step: one of
-            /// bowden_saturation. Use it for a drive that does not report its command, such as the
-            /// inner loop of a cascade; otherwise use bowden_pid_applied.
+            /// Reports the limit at which the drive was after the last step, one of
+            /// bowden_saturation. Use this function for a drive that does not report its command,
+            /// such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
             ///
             /// Call this function between two steps. The integral then does not move further
-            /// towards that limit. Any other number returns BOWDEN_RESULT_ERROR_CHOICE.
+            /// towards the limit. Another value of `saturation` is an error
+            /// (BOWDEN_RESULT_ERROR_CHOICE).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_at_limit_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -222,11 +220,11 @@ macro_rules! pid {
                 })())
             }
 
-            /// Sets `saturation` to the active limit of the command at the last good sample, one of
+            /// Sets `saturation` to the limit that was active at the last good sample, one of
             /// bowden_saturation.
             ///
-            /// In a cascade whose inner gains are positive, pass it to bowden_pid_at_limit of the
-            /// outer loop.
+            /// In a cascade whose inner gains are positive, pass this value to bowden_pid_at_limit
+            /// of the outer loop.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_get_saturation_ $f>](
                 pid: *const [<bowden_pid_ $f>],
@@ -245,8 +243,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Acknowledges the fault: the next good sample closes the loop again and starts from
-            /// the safe command. Without a latched safe command the call has no effect.
+            /// Acknowledges the fault. The next good sample closes the loop again and starts from
+            /// the safe command. The call has no effect unless the safe command is latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_acknowledge_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -258,8 +256,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Clears the integral, the rate and the samples. The applied command is kept, and a
-            /// latched safe command stays latched.
+            /// Clears the integral, the filtered derivative and the stored samples. The applied
+            /// command is kept, and a latched safe command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_reset_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -271,11 +269,12 @@ macro_rules! pid {
                 })())
             }
 
-            /// Prepares a stored object for a start after a power-off, before its first step: the
-            /// command becomes the value nearest to zero within the limits. The integral, the rate
-            /// and the samples are cleared; a latched safe command stays latched. The first good
-            /// sample starts from this command without a jump. Without this call a step continues
-            /// with the stored command.
+            /// Prepares a stored object for a restart after a power-off. Call this function before
+            /// the first step. Otherwise the step continues from the stored command.
+            ///
+            /// The command becomes the value nearest to zero within the limits, and the first good
+            /// sample starts from it without a jump. The integral, the filtered derivative and the
+            /// stored samples are cleared. A latched safe command stays latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_restore_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -288,9 +287,9 @@ macro_rules! pid {
                 })())
             }
 
-            /// Restarts so that the command continues from `command` [command unit] without a jump.
-            /// A number that is not finite counts as a bad sample; a latched safe command stays
-            /// latched. `out` receives the applied command, and may be null.
+            /// Restarts the controller so that the command continues from `command` [command unit]
+            /// without a jump. A `command` that is not finite counts as a bad sample. A latched
+            /// safe command stays latched. `out` receives the applied command and may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_resume_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -315,10 +314,11 @@ macro_rules! pid {
                 })())
             }
 
-            /// Changes the settings of a running loop without a jump of the command. If the new
-            /// range excludes the applied command, the next command is the nearest one in the range
-            /// and ignores the slew-rate limit, so narrow a range step by step. On an error the
-            /// loop continues with the old settings.
+            /// Changes the settings of a running loop without a jump of the command. On an error
+            /// the loop continues with the old settings. `about` may be null.
+            ///
+            /// If the new range excludes the applied command, the next command is the nearest one
+            /// in the range and ignores the slew-rate limit. Therefore narrow a range step by step.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_change_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -339,7 +339,7 @@ macro_rules! pid {
                 }
             }
 
-            /// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
+            /// Sets `latched` to 1 if the safe command is latched, otherwise to 0.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_is_latched_ $f>](
                 pid: *const [<bowden_pid_ $f>],

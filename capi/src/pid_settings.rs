@@ -1,87 +1,89 @@
-//! Settings of PI, PID and PIV.
+//! Settings of PI, PID and PIV controllers.
 
 use crate::result::Refused;
 use crate::settings::{marked, Marked};
 use crate::{bowden_fallback_f32, bowden_fallback_f64, bowden_limits_f32, bowden_limits_f64};
 use core_bowden::control::{AntiWindup, DerivativeSource, Pid, PidSettings};
 
-/// The signal that the gain `k_d` multiplies.
+/// Signal that the gain `k_d` multiplies.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_derivative_source {
-    /// The filtered derivative of y - c*y_r, PID (14).
+    /// PID: the filtered derivative of y - c*y_r, as in (14).
     Rate = 0,
-    /// The measured distal velocity, unfiltered, PIV (16).
+    /// PIV: the measured distal velocity, unfiltered, as in (16).
     Velocity = 1,
 }
 
-/// Anti-windup: limits the integral while the command is limited.
+/// Anti-windup method: how the integral behaves while the command saturates.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_anti_windup {
-    /// A change of the integral that would take the command beyond its range is cut to the value
-    /// that fills the range; a change away from the limit acts in full.
+    /// The integral changes only until the command reaches the end of its range. A change away from
+    /// this limit acts in full.
     Conditional = 0,
     /// No anti-windup: the integral winds up.
     None = 1,
-    /// The integral term stays within the range of the command, widened to include zero.
+    /// The integral term stays within the command range. This range is widened to include zero and
+    /// the value at which the command reaches its limit.
     Clamp = 2,
-    /// The part that the limits cut off returns to the integral with the time constant
-    /// `tracking_time`.
+    /// The part of the command that the limits cut off is fed back to the integral with the time
+    /// constant `tracking_time`.
     BackCalculation = 3,
 }
 
 macro_rules! settings {
     ($f:ident) => {
         pastey::paste! {
-            /// Settings of a PI (15), PID (14) or PIV (16):
+            /// Settings of a PI, PID or PIV controller, equations (15), (14) and (16):
             ///
             ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*d/dt(y - c*y_r) + u_ff
             ///     u = -k_p*(y - b*y_r) - k_i*integral(e) - k_d*v_d             + u_ff    (PIV)
             ///     command = u within the range and the slew-rate limit;  e = y - y_r
             ///
-            /// Start from NAME_INIT. By default: full set-point weight, derivative on the
-            /// measurement, conditional anti-windup, no slew-rate limit, 4 good samples to cancel a
-            /// bad one, and gains and a safe command of 0. Limits, longest_dt and `after` must be
-            /// set.
+            /// Defaults: b = 1, c = 0, conditional anti-windup, no slew-rate limit, a fallback
+            /// weight of 4, and 0 for the gains and the safe command. You must set `limits`,
+            /// `longest_dt` and `fallback.after`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Proportional gain [command unit/output unit].
                 pub k_p: $f,
                 /// Integral gain [command unit/(output unit*s)], with the sign of k_p.
                 pub k_i: $f,
-                /// Derivative gain [command unit*s/output unit], with the sign of k_p; for PIV
-                /// [command unit*s/rad]. 0 for a PI.
+                /// Derivative gain [command unit*s/output unit], with the sign of k_p. PIV:
+                /// velocity gain [command unit*s/rad]. PI: 0.
                 pub k_d: $f,
-                /// One of bowden_derivative_source: the signal that k_d multiplies.
+                /// Signal that k_d multiplies, one of bowden_derivative_source.
                 pub damping: u32,
-                /// Set-point weight c of the derivative, 0 to 1: with 0, the default, it acts on
-                /// the measurement; with 1 it acts on the error, and a step of the reference causes
-                /// a derivative kick.
+                /// Set-point weight c of the derivative, 0 to 1. With 0, the default, the
+                /// derivative acts on the measurement. With 1 it acts on the error, so a reference
+                /// step causes a derivative kick.
                 pub derivative_weight: $f,
-                /// Time constant of the derivative filter, zero (no filter) or above [s].
+                /// Time constant of the derivative filter [s], at least 0; 0 disables the filter.
                 pub derivative_time: $f,
-                /// Set-point weight b of the proportional term, 0 to 1; 1 by default.
+                /// Set-point weight b of the proportional term, 0 to 1; default 1.
                 pub setpoint_weight: $f,
-                /// One of bowden_anti_windup.
+                /// Anti-windup method, one of bowden_anti_windup.
                 pub anti_windup: u32,
-                /// Tracking time, for BOWDEN_ANTI_WINDUP_BACK_CALCULATION only; above zero [s].
+                /// Tracking time [s], positive. Only BOWDEN_ANTI_WINDUP_BACK_CALCULATION uses it.
                 pub tracking_time: $f,
-                /// Largest magnitude of the integral term, above zero [command unit]; 0 for none.
+                /// Largest magnitude of the integral term [command unit], at least 0; 0 disables
+                /// this limit.
                 pub integral_limit: $f,
-                /// The integral is frozen while |e| is at most this value, zero (no deadband) or
-                /// above [output unit]. To prevent the limit cycle of static friction, make it
-                /// wider than the jump.
+                /// Deadband [output unit], at least 0: the integral is frozen while |e| is at most
+                /// this value. A deadband wider than the jump of the output prevents hunting due to
+                /// static friction.
                 pub deadband: $f,
-                /// Period of an output that wraps, above zero [output unit], such as 360 degrees; 0
-                /// for none. Errors and changes are then measured along the shorter way round.
+                /// Period of an output that wraps [output unit], such as 360 degrees; 0 if the
+                /// output does not wrap. Errors and changes are measured along the shorter way
+                /// round.
                 pub period: $f,
                 /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],
-                /// Longest dt of a good sample, above zero [s]: for example five nominal steps.
+                /// Longest dt of a good sample [s], positive, for example five sampling periods.
                 pub longest_dt: $f,
                 /// Fallback after repeated bad samples.
                 pub fallback: [<bowden_fallback_ $f>],
@@ -90,7 +92,7 @@ macro_rules! settings {
             marked!([<bowden_pid_settings_ $f>]);
 
             impl [<bowden_pid_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,

@@ -1,30 +1,30 @@
-//! Plausibility of a finite reading from a sensor.
+//! Plausibility check of sensor samples.
 
 use crate::object::{kept, read_settings, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::settings::{marked, Marked};
 use core_bowden::signal::{Implausible, Plausible, PlausibleState};
 
-/// Size of a bowden_plausible_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_PLAUSIBLE_F32_WORDS: usize = 8;
-/// Size of a bowden_plausible_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_PLAUSIBLE_F64_WORDS: usize = 14;
 
-/// Why a sample is implausible.
+/// Reason why a sample is implausible.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_implausible {
     /// The sample is plausible.
     None = 0,
-    /// It is NaN or infinite.
+    /// The sample is NaN or infinite.
     NotFinite = 1,
-    /// It lies outside the range.
+    /// The sample lies outside the range.
     OutOfRange = 2,
-    /// It is further from the last plausible sample than the rate allows.
+    /// The sample is further from the last plausible sample than `rate` allows.
     TooFast = 3,
-    /// It has kept the same value for too long while the machine moved.
+    /// The sample has kept the same value for too long while the machine moved.
     Stuck = 4,
-    /// A reason from a later version.
+    /// A reason that a later version adds.
     Other = 5,
 }
 
@@ -43,7 +43,7 @@ impl From<Implausible> for bowden_implausible {
 macro_rules! plausible {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A check of samples with its state; initialised by bowden_plausible_init.
+            /// Plausibility check with its state.
             #[repr(C)]
             pub struct [<bowden_plausible_ $f>] {
                 /// Private; do not use.
@@ -56,38 +56,37 @@ macro_rules! plausible {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of a check of samples.
+            /// Settings of a plausibility check.
             ///
-            /// Start from NAME_INIT. By default only the range is checked; low and high must be
-            /// set.
+            /// By default the check covers only the range. You must set `low` and `high`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_plausible_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
                 /// Lower end of the plausible range [signal unit].
                 pub low: $f,
-                /// Upper end of the plausible range [signal unit]; above `low`.
+                /// Upper end of the plausible range [signal unit], above `low`.
                 pub high: $f,
-                /// Largest rate of the signal, above zero [signal unit/s]; 0 for none. Do not use
-                /// it for an angle that wraps.
+                /// Largest plausible rate of change [signal unit/s], at least 0; 0 disables this
+                /// check. Do not check the rate of an angle that wraps.
                 pub rate: $f,
-                /// Longest time of the sensor from one reading to the next, including jitter, above
-                /// zero [s]; 0 if unknown. If it is set, a repeated reading is taken to be at most
-                /// this old. Without a rate this setting has no effect.
+                /// Longest time between two readings of the sensor [s], including jitter; 0 if
+                /// unknown. A repeated reading then counts as at most this old. This setting has no
+                /// effect without a rate.
                 pub sample_period: $f,
-                /// Number of equal samples in a row that mean a stuck sensor, counted while the
-                /// machine moves; 0 for never.
+                /// Number of consecutive equal samples that indicate a stuck sensor; 0 disables
+                /// this check. Samples count only while the machine moves.
                 pub stuck_after: u32,
-                /// A longer or unusable dt counts as this dt, above zero [s]; with 0, such a time
-                /// is unknown.
+                /// A dt that is longer, negative or not finite counts as this dt [s], at least 0.
+                /// With 0, the time after a negative or non-finite dt is unknown.
                 pub longest_dt: $f,
             }
 
             marked!([<bowden_plausible_settings_ $f>]);
 
             impl [<bowden_plausible_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -101,20 +100,20 @@ macro_rules! plausible {
                 }
             }
 
-            /// Output of a check of a sample.
+            /// Output of bowden_plausible_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_plausible_output_ $f>] {
-                /// The sample, or NaN if it is not plausible; for a controller, NaN is a bad
+                /// The sample, or NaN if it is implausible. A controller treats NaN as a bad
                 /// sample.
                 pub value: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// Why the sample is implausible.
+                /// Reason why the sample is implausible, or BOWDEN_IMPLAUSIBLE_NONE.
                 pub reason: bowden_implausible,
             }
 
-            /// Checks the settings and starts a check of samples. `about` may be null.
+            /// Checks the settings and initialises a plausibility check. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_plausible_init_ $f>](
                 plausible: *mut [<bowden_plausible_ $f>],
@@ -140,11 +139,10 @@ macro_rules! plausible {
                 unsafe { told(parts().and_then(|inner| Ok(start(plausible, inner)?)), about) }
             }
 
-            /// Checks a sample [signal unit], `dt` [s] after the last call. Set `moves` to 1 while
-            /// the machine moves, so that the signal must change.
+            /// Checks a sample [signal unit] taken `dt` [s] after the last call. Set `moves` to 1
+            /// while the machine moves, so that the signal must change.
             ///
-            /// BOWDEN_RESULT_IMPLAUSIBLE: the sample is implausible, and the value is NaN. `out` is
-            /// written if the result is not negative.
+            /// The value of an implausible sample is NaN (BOWDEN_RESULT_IMPLAUSIBLE).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_plausible_step_ $f>](
                 plausible: *mut [<bowden_plausible_ $f>],

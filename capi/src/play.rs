@@ -1,18 +1,18 @@
-//! A play in front of a hysteresis, so that input noise does not drive the hysteresis.
+//! A play at the hysteresis input, so that input noise does not drive the hysteresis.
 
 use crate::object::{kept, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use core_bowden::signal::{Play, PlayState};
 
-/// Size of a bowden_play_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_PLAY_F32_WORDS: usize = 4;
-/// Size of a bowden_play_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_PLAY_F64_WORDS: usize = 6;
 
 macro_rules! play {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// A play with its state; initialised by bowden_play_init.
+            /// Play operator with its state.
             #[repr(C)]
             pub struct [<bowden_play_ $f>] {
                 /// Private; do not use.
@@ -25,8 +25,8 @@ macro_rules! play {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Starts a play with a `half_width` of at least zero [input unit], see
-            /// bowden_play_step. At zero the output is the input. `about` may be null.
+            /// Initialises a play; see bowden_play_step. `half_width` [input unit] is at least 0;
+            /// with 0 the output is the input. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_init_ $f>](
                 play: *mut [<bowden_play_ $f>],
@@ -40,15 +40,15 @@ macro_rules! play {
                 unsafe { told(parts().and_then(|inner| Ok(start(play, inner)?)), about) }
             }
 
-            /// Processes one input [input unit]; `output` receives the last output, moved by the
-            /// smallest amount that keeps it within the half-width r of the input:
+            /// Processes one input sample x [input unit]. The output y moves by the smallest amount
+            /// that keeps it within the half-width r of the input:
             ///
             ///     y+ = clamp(y, x - r, x + r)
             ///
-            /// An oscillation of the input within 2*r does not move the output. In front of a
-            /// hysteresis a play prevents reversals from sensor noise. The first good sample is
-            /// passed on unchanged. If the input is not finite, the last output is held (zero
-            /// before the first sample): BOWDEN_RESULT_HELD.
+            /// An oscillation of the input within 2*r does not move the output. At the input of a
+            /// hysteresis, a play prevents reversals due to sensor noise. The first good sample is
+            /// the first output. If the input is not finite, the last output is held
+            /// (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_step_ $f>](
                 play: *mut [<bowden_play_ $f>],

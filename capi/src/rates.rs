@@ -6,15 +6,15 @@ use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::signal::{Rates, RatesState};
 
-/// Size of a bowden_rates_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_RATES_F32_WORDS: usize = 10;
-/// Size of a bowden_rates_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_RATES_F64_WORDS: usize = 16;
 
 macro_rules! rates {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Rates with their state; initialised by bowden_rates_init.
+            /// Velocity and acceleration estimator with its state.
             #[repr(C)]
             pub struct [<bowden_rates_ $f>] {
                 /// Private; do not use.
@@ -27,29 +27,29 @@ macro_rules! rates {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of rates: two lags with the same time constant, see bowden_rates_step.
+            /// Settings of the rates: two lags with the same time constant; see bowden_rates_step.
             ///
-            /// Start from NAME_INIT. By default the position does not wrap and longest_gap is ten
-            /// time constants; time_constant must be set.
+            /// By default the position does not wrap, and `longest_gap` is ten time constants. You
+            /// must set `time_constant`.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_rates_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Time constant of both lags, above zero [s].
+                /// Time constant of both lags [s], positive.
                 pub time_constant: $f,
-                /// Period of a position that wraps, such as a counter's, above zero [channel unit];
-                /// 0 for none.
+                /// Period [channel unit] of a position that wraps, such as a counter; 0 if the
+                /// position does not wrap.
                 pub period: $f,
-                /// Longest gap between two good samples that the rates bridge, above zero [s]; 0
-                /// for ten time constants.
+                /// Longest gap between two good samples that the rates bridge [s]; 0 means ten time
+                /// constants.
                 pub longest_gap: $f,
             }
 
             marked!([<bowden_rates_settings_ $f>]);
 
             impl [<bowden_rates_settings_ $f>] {
-                /// The defaults; fields without a default are 0.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -60,20 +60,20 @@ macro_rules! rates {
                 }
             }
 
-            /// Output of a step of the rates.
+            /// Output of bowden_rates_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_rates_output_ $f>] {
-                /// Position (unwrapped), velocity and acceleration; finite, zero before the
+                /// Position (unwrapped), velocity and acceleration: finite, and zero before the
                 /// first good sample.
                 pub motion: [<bowden_motion_ $f>],
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input, if there is one.
+                /// Bad input, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
             }
 
-            /// Checks the settings and starts rates. `about` may be null.
+            /// Checks the settings and initialises the estimator. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_rates_init_ $f>](
                 rates: *mut [<bowden_rates_ $f>],
@@ -96,15 +96,14 @@ macro_rules! rates {
                 unsafe { told(parts().and_then(|inner| Ok(start(rates, inner)?)), about) }
             }
 
-            /// The motion at a position [channel unit], `dt` [s] after the last call, whether that
-            /// sample was good or bad:
+            /// Computes the motion at `position` [channel unit]. `dt` [s] is the time since the
+            /// last call, even if that sample was bad.
             ///
-            ///     s  = 1 - exp(-h/tau),  h = time since the last good sample
+            ///     s  = 1 - exp(-h/time_constant),  h = time since the last good sample
             ///     v+ = v + s*((x - x_last)/h - v)
             ///     a+ = a + s*((v+ - v)/h - a)
             ///
-            /// A bad sample holds the last good motion: BOWDEN_RESULT_HELD. `out` is written if the
-            /// result is not negative.
+            /// A bad sample holds the last good motion (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_rates_step_ $f>](
                 rates: *mut [<bowden_rates_ $f>],

@@ -1,4 +1,4 @@
-//! The relay experiment: ultimate gain and period of a loop, and the gains of a PI.
+//! Relay experiment: measures the ultimate gain and period of a loop and computes PI gains.
 
 use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
@@ -8,55 +8,55 @@ use core_bowden::control::{
     Fault, Output, PiRule, Relay, RelaySettings, RelayState, Status, Ultimate,
 };
 
-/// Size of a bowden_relay_f32 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_RELAY_F32_WORDS: usize = 26;
-/// Size of a bowden_relay_f64 in 64-bit words.
+/// Size in 64-bit words.
 pub const BOWDEN_RELAY_F64_WORDS: usize = 44;
 
 /// Phase of a relay experiment.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_relay_phase {
-    /// The relay switches; after a bad sample the command is held.
+    /// The relay switches. A bad sample holds the command.
     Running = 0,
-    /// The experiment has succeeded: the relay applies the centre.
+    /// The experiment has succeeded. The command is the centre.
     Done = 1,
-    /// The experiment has failed: the safe command is applied until bowden_relay_acknowledge.
+    /// The experiment has failed. The safe command is applied until bowden_relay_acknowledge.
     Failed = 2,
 }
 
-/// Why a relay experiment failed.
+/// Reason why a relay experiment failed.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_relay_failure {
     /// The experiment has not failed.
     None = 0,
-    /// Too many bad samples; the fault is that of the last one.
+    /// There were too many bad samples. `fault` is the fault of the last one.
     BadSamples = 1,
-    /// The output was further from the reference than `most_deviation`: choose a smaller
+    /// The distance of the output from the reference exceeded `most_deviation`. Choose a smaller
     /// amplitude, a centre that holds the reference, or the other sign of the amplitude.
     OutputOutOfRange = 2,
-    /// `longest_time` has passed without a complete cycle: the amplitude does not move the output
+    /// There was no complete cycle within `longest_time`. The amplitude does not move the output
     /// through the reference, its sign is wrong, or the time is too short for two periods.
     NoOscillation = 3,
-    /// `longest_time` has passed and the cycles did not agree: the time is too short, the noise
-    /// exceeds the hysteresis, or a cycle has fewer than 2/agreement samples.
+    /// The cycles did not agree within `longest_time`. The time is too short, the noise exceeds the
+    /// hysteresis, or a cycle has fewer than 2/agreement samples.
     TimeOut = 4,
-    /// A reason from a later version.
+    /// A reason that a later version adds.
     Other = 5,
 }
 
-/// Tuning rule: PI gains from ultimate gain and period.
+/// Tuning rule for PI gains from the ultimate gain and period.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_pi_rule {
-    /// k_p = gain/3.2, k_i = k_p/(2.2*period): the conservative rule.
+    /// Conservative: k_p = gain/3.2, k_i = k_p/(2.2*period).
     TyreusLuyben = 0,
-    /// k_p = 0.45*gain, k_i = k_p/(period/1.2): fast, with an overshoot.
+    /// Fast, with overshoot: k_p = 0.45*gain, k_i = k_p/(period/1.2).
     ZieglerNichols = 1,
 }
 
-/// Why an experiment with this status failed.
+/// The reason why an experiment with this status failed.
 fn failure(status: Status) -> bowden_relay_failure {
     match status {
         Status::Safe(Fault::OutputOutOfRange) => bowden_relay_failure::OutputOutOfRange,
@@ -70,51 +70,52 @@ fn failure(status: Status) -> bowden_relay_failure {
 macro_rules! relay {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Settings of a relay experiment, which makes the loop oscillate about the reference:
+            /// Settings of a relay experiment, in which the output oscillates about the reference.
+            /// The relay switches the command:
             ///
-            ///     command = centre + amplitude   from y < reference - hysteresis on
-            ///     command = centre - amplitude   from y > reference + hysteresis on
+            ///     to centre + amplitude   when y < reference - hysteresis
+            ///     to centre - amplitude   when y > reference + hysteresis
             ///
-            /// Start from NAME_INIT. By default 4 good samples cancel a bad one, and the safe
-            /// command is 0; all other fields must be set.
+            /// By default the fallback weight is 4 and the safe command is 0. You must set all
+            /// other fields.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_relay_settings_ $f>] {
-                /// The mark that the macro NAME_INIT sets; settings without it are refused.
+                /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Reference y_r, about which the output oscillates [output unit].
+                /// Reference y_r about which the output oscillates [output unit].
                 pub reference: $f,
-                /// Mean of the two levels of the command [command unit]. The command that holds the
-                /// output at the reference gives equal half-periods.
+                /// Mean of the two command levels [command unit]. The half-periods are equal if
+                /// this command holds the output at the reference.
                 pub centre: $f,
-                /// Distance from the centre to each level, not zero, with the sign of the plant's
-                /// gain [command unit].
+                /// Distance from the centre to each level [command unit], nonzero, with the sign of
+                /// the plant gain.
                 pub amplitude: $f,
-                /// Hysteresis of the relay, zero or above [output unit]: at least the peak of the
-                /// noise.
+                /// Hysteresis of the relay [output unit], at least 0. It must be at least the peak
+                /// of the noise.
                 pub hysteresis: $f,
-                /// Largest distance of the output from the reference, above `hysteresis`
-                /// [output unit]. One sample beyond it ends the experiment.
+                /// Largest distance of the output from the reference [output unit], above
+                /// `hysteresis`. One sample beyond this distance ends the experiment.
                 pub most_deviation: $f,
-                /// Number of successive cycles in the average, at least 2.
+                /// Number of consecutive cycles in the average, at least 2.
                 pub cycles: u32,
-                /// Largest deviation of a cycle from the mean of earlier cycles, as a share of this
-                /// mean, between 0 and 1.
+                /// Largest relative deviation of a cycle from the mean of earlier cycles, above 0
+                /// and below 1.
                 pub agreement: $f,
-                /// Maximum duration of the experiment, at least `longest_dt` [s].
+                /// Maximum duration of the experiment [s], at least `longest_dt`.
                 pub longest_time: $f,
-                /// Longest dt of a good sample, above zero [s].
+                /// Longest dt of a good sample [s], positive.
                 pub longest_dt: $f,
-                /// Range of the command, without a slew-rate limit.
+                /// Range of the command. A slew-rate limit is an error.
                 pub limits: [<bowden_limits_ $f>],
-                /// Fallback after a failure; BOWDEN_HOLD_FOR_EVER is refused.
+                /// Fallback after a failure. BOWDEN_HOLD_FOR_EVER is an error.
                 pub fallback: [<bowden_fallback_ $f>],
             }
 
             marked!([<bowden_relay_settings_ $f>]);
 
             impl [<bowden_relay_settings_ $f>] {
-                /// The defaults; a field without a default has an invalid value.
+                /// Returns the defaults.
                 pub const fn defaults() -> Self {
                     Self {
                         init_mark: Self::MARK,
@@ -158,18 +159,18 @@ macro_rules! relay {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq, Default)]
             pub struct [<bowden_ultimate_ $f>] {
-                /// Ultimate gain, with the sign of the relay's amplitude [command unit/output
-                /// unit].
+                /// Ultimate gain [command unit/output unit], with the sign of the amplitude of the
+                /// relay.
                 pub gain: $f,
                 /// Ultimate period [s].
                 pub period: $f,
-                /// Half the distance from the lowest to the highest output [output unit].
+                /// Half the peak-to-peak value of the output [output unit].
                 pub amplitude: $f,
-                /// Share of the period in which the command is centre + amplitude.
+                /// Fraction of the period in which the command is centre + amplitude.
                 pub duty: $f,
             }
 
-            /// Gains of a PI, for bowden_pid_settings.
+            /// PI gains for bowden_pid_settings.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pi_gains_ $f>] {
@@ -179,23 +180,23 @@ macro_rules! relay {
                 pub k_i: $f,
             }
 
-            /// Output of a step of a relay experiment.
+            /// Output of bowden_relay_step.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_relay_output_ $f>] {
-                /// Command for the drive [command unit]: finite and within the limits.
+                /// Command for the drive [command unit], finite and within the limits.
                 pub command: $f,
-                /// Status of the step, equal to its return value.
+                /// Return value of the step.
                 pub result: bowden_result,
-                /// The bad input of a sample.
+                /// Bad input of the sample, or BOWDEN_FAULT_NONE.
                 pub fault: bowden_fault,
                 /// Phase of the experiment.
                 pub phase: bowden_relay_phase,
-                /// Why the experiment failed.
+                /// Reason why the experiment failed, or BOWDEN_RELAY_FAILURE_NONE.
                 pub failure: bowden_relay_failure,
                 /// Number of complete cycles.
                 pub cycles: u32,
-                /// The result; zero until the experiment is done.
+                /// Result of the experiment. All fields are zero until the experiment is done.
                 pub ultimate: [<bowden_ultimate_ $f>],
             }
 
@@ -224,8 +225,7 @@ macro_rules! relay {
                 }
             }
 
-            /// A relay experiment with its state, in the caller's memory; initialised by
-            /// bowden_relay_init.
+            /// Relay experiment with its state.
             #[repr(C)]
             pub struct [<bowden_relay_ $f>] {
                 /// Private; do not use.
@@ -240,8 +240,8 @@ macro_rules! relay {
 
             /// Checks the settings and starts an experiment. `about` may be null.
             ///
-            /// Start with the output near the reference: at the mean command of the previous loop,
-            /// or at rest.
+            /// At the start the output must be near the reference: at the mean command of the
+            /// previous loop, or at rest.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_init_ $f>](
                 relay: *mut [<bowden_relay_ $f>],
@@ -257,14 +257,13 @@ macro_rules! relay {
                 }
             }
 
-            /// Processes one sample, with `dt` since the last call [s], also after a bad sample,
-            /// and the measured output [output unit]. Call this function while the phase is
+            /// Processes one sample. `dt` [s] is the time since the last call, even if that sample
+            /// was bad. `measured` is in [output unit]. Call this function while the phase is
             /// BOWDEN_RELAY_PHASE_RUNNING.
             ///
-            /// A bad sample holds the command: BOWDEN_RESULT_HELD. After a failure the safe command
-            /// is applied until bowden_relay_acknowledge: BOWDEN_RESULT_SAFE. Every sample consumes
-            /// part of `longest_time`, so the experiment ends. `out` is written if the result is
-            /// not negative.
+            /// A bad sample holds the command (BOWDEN_RESULT_HELD). After a failure the safe
+            /// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every sample
+            /// consumes part of `longest_time`, so the experiment always ends.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_step_ $f>](
                 relay: *mut [<bowden_relay_ $f>],
@@ -283,7 +282,7 @@ macro_rules! relay {
                 })())
             }
 
-            /// Acknowledges the failure: the next good sample restarts the experiment with its full
+            /// Acknowledges the failure. The next good sample restarts the experiment with its full
             /// duration. Without a failure the call has no effect.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_acknowledge_ $f>](
@@ -296,7 +295,7 @@ macro_rules! relay {
                 })())
             }
 
-            /// Sets `latched` to 1 while the safe command is latched, otherwise to 0.
+            /// Sets `latched` to 1 if the safe command is latched, otherwise to 0.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_is_latched_ $f>](
                 relay: *const [<bowden_relay_ $f>],
@@ -310,11 +309,12 @@ macro_rules! relay {
                 })())
             }
 
-            /// The gains of a PI by `rule`, one of bowden_pi_rule, from the result of an experiment.
+            /// Computes PI gains from the result of an experiment. `rule` is one of bowden_pi_rule
+            /// (otherwise BOWDEN_RESULT_ERROR_CHOICE).
             ///
-            /// Continue with bowden_pid_resume from the applied command. An unknown rule returns
-            /// BOWDEN_RESULT_ERROR_CHOICE. A result that is zero or not finite, as before the end
-            /// of the experiment, returns BOWDEN_RESULT_ERROR_OUT_OF_RANGE.
+            /// A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
+            /// The result is zero until the experiment is done. Then continue with
+            /// bowden_pid_resume from the applied command.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_gains_ $f>](
                 ultimate: *const [<bowden_ultimate_ $f>],

@@ -1,4 +1,4 @@
-//! Result of a function, and the bad input of a sample.
+//! Result of a function, and bad input of a sample.
 
 use crate::object::{read_text, write};
 use core::ffi::{c_char, CStr};
@@ -6,34 +6,34 @@ use core_bowden::control::{Fault, Status};
 use core_bowden::signal::RateStatus;
 use core_bowden::Error;
 
-/// Result of a function: 0 for success; above zero if a sample was not good but the output was
-/// written; below zero if nothing was written.
+/// Result of a function. Zero: success. Positive: the sample was not good, but the output was
+/// written. Negative: an error.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_result {
-    /// Success; for a step: a good sample.
+    /// Success. For a step: a good sample.
     Ok = 0,
-    /// Rates: a good sample, but the rates started from zero less than five time constants ago.
+    /// A good sample, but the rates started from zero less than five time constants ago, or fewer
+    /// than two counts are known.
     Settling = 1,
-    /// Rates: a good position after an unknown time; the rates are held.
+    /// A good position after an unknown time. The rates are held.
     Resumed = 2,
-    /// A regressor was bad and its term was omitted; the loop is closed, and the estimates do not
-    /// change. For iterative learning: the feed-forward belongs to this phase, but the error of the
-    /// sample or of the cell before a jump was ignored.
+    /// Adaptive law: the term of a bad regressor was omitted, and the estimates do not change.
+    /// Iterative learning: the error of this sample, or of the cell before a jump, was ignored.
     Degraded = 3,
-    /// A bad sample: the state is unchanged, and the last good command or value is held.
+    /// A bad sample. The state is unchanged, and the last good command or value is held.
     Held = 4,
-    /// Too many bad samples: the safe command is applied until it is acknowledged.
+    /// Too many bad samples. The safe command is applied until the fault is acknowledged.
     Safe = 5,
-    /// Velocity from counts: no count for longer than the longest gap, so the velocity is zero.
+    /// No count for longer than the longest gap, so the velocity is zero.
     Stopped = 6,
-    /// The sample is implausible: the value is NaN.
+    /// The sample is implausible, so the value is NaN.
     Implausible = 7,
     /// A pointer is null.
     ErrorNull = -1,
     /// A pointer is not aligned for its type.
     ErrorMisaligned = -2,
-    /// The object was not initialised, or it was overwritten.
+    /// The object is not initialised, or it has been overwritten.
     ErrorUninitialised = -3,
     /// A setting is NaN or infinite.
     ErrorNonFinite = -4,
@@ -41,30 +41,30 @@ pub enum bowden_result {
     ErrorOutOfRange = -5,
     /// Two settings together violate a condition.
     ErrorInadmissible = -6,
-    /// There are more items than the capacity allows.
+    /// There are too many items.
     ErrorCapacity = -7,
-    /// A setting has a value that its enum does not contain.
+    /// A setting has a value that is not in its enum.
     ErrorChoice = -8,
-    /// The bytes of a model are damaged, are too many, have the other precision or another version,
-    /// or contain too many terms.
+    /// The bytes of a model are damaged or surplus, they have the other precision or another
+    /// version, or the model has too many terms.
     ErrorModel = -9,
     /// The settings were not initialised with their macro NAME_INIT.
     ErrorSettings = -10,
 }
 
-/// The bad input of a sample.
+/// Bad input of a sample.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_fault {
-    /// Nothing.
+    /// No bad input.
     None = 0,
     /// dt is NaN or infinite.
     Dt = 1,
-    /// dt is zero or negative: time has not advanced.
+    /// dt is zero or negative.
     DtNotPositive = 2,
-    /// dt exceeds the longest dt of the settings, or the stability limit of the law.
+    /// dt exceeds `longest_dt` or the stability limit of the adaptive law.
     DtTooLong = 3,
-    /// The reference, or its next value.
+    /// The reference or the next reference.
     Reference = 4,
     /// The measured output.
     Measured = 5,
@@ -74,23 +74,23 @@ pub enum bowden_fault {
     FeedForward = 7,
     /// The command to resume from.
     Command = 8,
-    /// A regressor, or an input of a model's term; its index is in the output.
+    /// A regressor of the adaptive law, or an input of a model term. The output contains the index.
     Regressor = 9,
-    /// Every input is finite, but the command could not be computed: an overflow.
+    /// An overflow: all inputs are finite, but the command is not.
     Overflow = 10,
     /// The position.
     Position = 11,
-    /// A fault from a later version.
+    /// A fault that a later version adds.
     Other = 12,
-    /// The phase of a cycle is outside 0 to 1, or has jumped.
+    /// The phase of the cycle is outside 0 to 1, or it has jumped.
     Phase = 13,
 }
 
-/// The name of the refused setting, or the violated condition.
+/// Name of the rejected setting, or the violated condition.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct bowden_about {
-    /// ASCII with a NUL at the end, such as "k_p" or "low < high"; truncated if it is longer.
+    /// NUL-terminated ASCII text, such as "k_p" or "low < high", truncated to 127 characters.
     pub text: [c_char; 128],
 }
 
@@ -110,7 +110,7 @@ impl bowden_about {
     }
 }
 
-/// Why nothing was done: a code, and for a setting its name.
+/// Error of a function: its code, and the name of the rejected setting.
 pub(crate) struct Refused {
     code: bowden_result,
     about: &'static str,
@@ -139,7 +139,7 @@ impl From<Error> for Refused {
 }
 
 impl Refused {
-    /// The refusal of settings without the mark of their macro.
+    /// The error for settings without the mark of their macro.
     pub(crate) fn unmarked(about: &'static str) -> Self {
         Self {
             code: bowden_result::ErrorSettings,
@@ -147,7 +147,7 @@ impl Refused {
         }
     }
 
-    /// The refusal of a setting without a default that still has the value from its macro.
+    /// The error for a setting that has no default and was not set.
     pub(crate) fn unset(about: &'static str) -> Self {
         Self {
             code: bowden_result::ErrorOutOfRange,
@@ -162,7 +162,7 @@ impl Refused {
         }
     }
 
-    /// The refusal of a model whose checksum is correct, or not.
+    /// The error for a model; `is_whole` means that its checksum is correct.
     pub(crate) fn model(is_whole: bool) -> Self {
         let about = if is_whole {
             "precision, version or number of terms"
@@ -183,12 +183,12 @@ impl Refused {
     }
 }
 
-/// The code of an attempt.
+/// The result code of an attempt.
 pub(crate) fn code(tried: Result<bowden_result, Refused>) -> bowden_result {
     tried.unwrap_or_else(|refused| refused.code)
 }
 
-/// The same, and the text of a refusal if the caller wants it.
+/// The result code of an attempt. The function also writes the text of an error to `about`.
 ///
 /// # Safety
 /// `about` is null or points to memory of its type.
@@ -226,7 +226,7 @@ impl From<Fault> for bowden_fault {
     }
 }
 
-/// The code of a controller's step, the bad input, and the index of a bad regressor.
+/// The result code of a controller step, the bad input, and the index of a bad regressor.
 pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
     let code = match status {
         Status::Good => bowden_result::Ok,
@@ -244,7 +244,7 @@ pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
     (code, fault.into(), regressor)
 }
 
-/// The code of a step of the rates, and what was wrong.
+/// The result code of a step of the rates, and the bad input.
 pub(crate) fn of_rates(status: RateStatus) -> (bowden_result, bowden_fault) {
     let code = match status {
         RateStatus::Good => bowden_result::Ok,
@@ -256,7 +256,7 @@ pub(crate) fn of_rates(status: RateStatus) -> (bowden_result, bowden_fault) {
     (code, bowden_fault::None)
 }
 
-/// A sentence about a result, for a log: ASCII, static, and never null, even for an unknown number.
+/// Returns a description of a result for a log: static ASCII, never null.
 #[no_mangle]
 pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
     let text: &CStr = match result {
@@ -283,7 +283,7 @@ pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
     text.as_ptr()
 }
 
-/// The bad input of a sample, for a log: ASCII, static, and never null.
+/// Returns a description of a bad input for a log: static ASCII, never null.
 #[no_mangle]
 pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
     let text: &CStr = match fault {
@@ -305,7 +305,7 @@ pub extern "C" fn bowden_fault_text(fault: i32) -> *const c_char {
     text.as_ptr()
 }
 
-/// The version of the library, such as "0.2.0": static, and never null.
+/// Returns the version of the library, such as "0.2.0": static, never null.
 #[no_mangle]
 pub extern "C" fn bowden_version() -> *const c_char {
     read_text(concat!(env!("CARGO_PKG_VERSION"), "\0")).as_ptr()

@@ -1,30 +1,30 @@
-//! The mark at the start of each settings struct, which its macro in the header sets.
+//! The mark at the start of each settings struct.
 //!
-//! C sets each field that a designated initialiser does not name to zero, which for some settings
-//! is valid but not the default. A struct without the mark is therefore refused, and the macro
-//! gives each setting without a default an invalid value.
+//! In C, a designated initialiser sets the fields that it does not name to zero. For some settings
+//! zero is valid but not the default. A struct without the mark of its macro is therefore rejected.
+//! The macro gives each setting without a default an invalid value.
 
 use crate::result::Refused;
 
-/// The value of a choice or a count that must be set: no enum and no count uses it.
+/// The value of a choice or a count that must be set. No enum and no valid count has this value.
 pub(crate) const UNSET: u32 = 0xffff_ffff;
 
-/// CRC-32 of the struct's name, different for every type.
+/// CRC-32 of the name of the struct, different for every type.
 pub(crate) const fn mark(name: &str) -> u32 {
     crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(name.as_bytes())
 }
 
-/// A settings struct that starts from its macro.
+/// A settings struct that its macro initialises.
 ///
 /// # Safety
 /// `Self` is `repr(C)`, its first field is a `u32`, and its other fields are numbers.
 pub(crate) unsafe trait Marked: Copy {
-    /// The first field of a struct that started from its macro.
+    /// The first field of an initialised struct.
     const MARK: u32;
-    /// The text of the refusal of a struct that did not.
+    /// The error text for a struct without the mark.
     const UNMARKED: &'static str;
 
-    /// The refusal, unless this first field is the mark.
+    /// Returns an error unless `first` is the mark.
     fn is_marked(first: u32) -> Result<(), Refused> {
         if first == Self::MARK {
             return Ok(());
@@ -33,7 +33,7 @@ pub(crate) unsafe trait Marked: Copy {
     }
 }
 
-/// Declares that a struct starts from its macro.
+/// Implements [`Marked`] for a settings struct.
 macro_rules! marked {
     ($settings:ident) => {
         pastey::paste! {

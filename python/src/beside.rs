@@ -1,4 +1,4 @@
-//! Additions to a controller's command: a disturbance observer, and learning over a cycle.
+//! Additions to the command of a controller: disturbance observer and iterative learning.
 
 use crate::code;
 use crate::code::Codes;
@@ -13,7 +13,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Both, if they are used, with their states.
+/// The observer and iterative learning, if they are used, with their states.
 #[derive(Clone)]
 pub struct Beside {
     observer: Option<DisturbanceObserver<f64>>,
@@ -28,7 +28,7 @@ struct Learns {
     first: Vec<f64>,
 }
 
-/// The states of both.
+/// The states of the observer and of iterative learning.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Memory {
@@ -44,7 +44,7 @@ pub struct Cycle {
 }
 
 impl Beside {
-    /// From settings as JSON, and from the values that each cell has learned before.
+    /// From settings as JSON, and from the initial learned value of each cell.
     pub fn new(observer: Option<&str>, learning: Option<&(String, Vec<f64>)>) -> PyResult<Self> {
         let observer = observer.map(read::<DisturbanceObserver<f64>>).transpose()?;
         let learns = |(text, first): &(String, Vec<f64>)| -> PyResult<Learns> {
@@ -65,8 +65,8 @@ impl Beside {
         })
     }
 
-    /// The value to add to the next command, and the worse of the two statuses; `sent` is the
-    /// applied command.
+    /// Returns the value to add to the next command, and the worse of the two statuses. `sent` is
+    /// the applied command.
     pub fn step(&mut self, sent: f64, at: &LoopSample<'_, f64>, cycle: Cycle) -> (f64, Codes) {
         let observed = self.observer.zip(self.memory.observer.as_mut());
         let observed = observed.map(|(observer, state)| {
@@ -90,7 +90,7 @@ impl Beside {
         (added, worst.unwrap_or_default())
     }
 
-    /// The last value that both have added.
+    /// The last value that was added to the command.
     pub fn added(&self) -> f64 {
         let observed = self.disturbance().unwrap_or_default();
         let learned = self.memory.learning.as_ref();
@@ -145,13 +145,13 @@ impl Learns {
     }
 }
 
-/// Refuses invalid settings.
+/// Rejects invalid settings.
 #[pyfunction]
 pub fn check_beside(observer: Option<&str>, learning: Option<(String, Vec<f64>)>) -> PyResult<()> {
     Beside::new(observer, learning.as_ref()).map(|_| ())
 }
 
-/// The command for which a nominal plant (as JSON) follows an output with its first two
+/// The command for which the output of a nominal plant (as JSON) has the given value and first two
 /// derivatives.
 #[pyfunction]
 pub fn nominal_feed_forward<'py>(

@@ -1,4 +1,4 @@
-//! Whether a model still holds on another record.
+//! Validation of a model on another record.
 
 use crate::close::{columns_of, cutoff, drawn, no_figures, provenance};
 use crate::failure;
@@ -10,7 +10,7 @@ use bowden_lab::facts::{check_record, Asked, CheckQuestion, Checked as Answer, S
 use bowden_page::Check as Page;
 use pyo3::prelude::*;
 
-/// The answer, from which Python's `CheckReport` is made.
+/// The result, from which Python's `CheckReport` is made.
 #[pyclass(frozen, module = "bowden._bowden")]
 pub struct Checked {
     answer: Answer,
@@ -19,7 +19,8 @@ pub struct Checked {
     source: Option<Source>,
 }
 
-/// Runs a model on a record that it has not seen; `name` replaces the name of the model's file.
+/// Runs a model on a record that was not used in its fit. `name` replaces the name of the model
+/// file.
 #[pyfunction]
 pub fn check(
     py: Python<'_>,
@@ -60,7 +61,7 @@ impl Checked {
         &self.json
     }
 
-    /// The trace: the name of each column, and its values as texts or numbers.
+    /// The trace: the names of the columns, and their values as texts or numbers.
     fn trace<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
         columns_of(py, self.trace_csv()?)
     }

@@ -14,7 +14,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// The options for records that have been read.
+/// The options for the records.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Wanted {
@@ -82,7 +82,7 @@ pub struct Closed {
     sources: Vec<Source>,
 }
 
-/// Identifies the terms that a baseline model lacks, from records that agree with each other.
+/// Identifies the terms that a baseline model lacks, from one or more records.
 #[pyfunction]
 pub fn close(
     py: Python<'_>,
@@ -143,7 +143,7 @@ impl Closed {
         model.vector().map_err(failure::plain)
     }
 
-    /// The trace: the name of each column, and its values as texts or numbers.
+    /// The trace: the names of the columns, and their values as texts or numbers.
     fn trace<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
         columns_of(py, self.answer.trace.as_deref().ok_or_else(no_figures)?)
     }

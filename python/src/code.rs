@@ -1,4 +1,4 @@
-//! Statuses and faults as small numbers: one byte per sample, named in the Python package.
+//! Statuses and faults as small numbers, one byte per sample. The Python package gives their names.
 
 use bowden::control::{Fault, Status};
 use bowden::signal::{Implausible, RateStatus};
@@ -6,7 +6,7 @@ use bowden::signal::{Implausible, RateStatus};
 /// A status and its fault; zero if there is none.
 pub type Codes = (u8, u8);
 
-/// 0 good, 1 degraded, 2 held, 3 safe: the greater the number, the worse the status.
+/// 0 good, 1 degraded, 2 held, 3 safe. A larger number is a worse status.
 pub fn status(status: Status) -> Codes {
     let code = match status {
         Status::Good => 0,
@@ -17,7 +17,7 @@ pub fn status(status: Status) -> Codes {
     (code, status.fault().map_or(0, fault))
 }
 
-/// The input of a step that could not be used.
+/// The bad input of a step.
 pub fn fault(fault: Fault) -> u8 {
     match fault {
         Fault::Dt => 1,

@@ -22,8 +22,8 @@ pub struct Helped {
 pub type Stepped = (f64, u8, u8);
 
 impl Helped {
-    /// One step. The status is degraded if the sample was good for the law, but the observer or
-    /// learning could not use it.
+    /// Makes one step. The status is degraded if the sample was good for the law, but the observer
+    /// or iterative learning could not use it.
     pub fn step(&mut self, at: &LoopSample<'_, f64>, cycle: Cycle) -> Stepped {
         let (added, unused) = self.beside.step(self.law.command(), at, cycle);
         let command = self.law.step(&LoopSample {
@@ -59,7 +59,7 @@ impl Lane for Helped {
         self.law.settings()
     }
 
-    /// `{"law": …, "beside": …}`, from texts that are JSON themselves.
+    /// `{"law": …, "beside": …}` from JSON texts.
     fn state(&self) -> PyResult<String> {
         let (law, beside) = (self.law.state()?, self.beside.state()?);
         Ok(format!(r#"{{"law":{law},"beside":{beside}}}"#))
@@ -99,7 +99,7 @@ type Signal<'py> = PyReadonlyArray2<'py, f64>;
 type Codes2<'py> = Bound<'py, PyArray2<u8>>;
 type Answer<'py> = (Bound<'py, PyArray2<f64>>, Codes2<'py>, Codes2<'py>);
 
-/// Numbers of one sample in the order of Python's call: reference, next reference, measured,
+/// The numbers of one sample in the order of the Python call: reference, next reference, measured,
 /// velocity, feed-forward, phase, and zero if the law does not learn from the sample.
 type Numbers = [f64; 7];
 
@@ -165,7 +165,7 @@ impl Controllers {
         self.lanes.restart(py)
     }
 
-    /// One sample of one lane.
+    /// Processes one sample of one lane.
     fn step(
         &self,
         py: Python<'_>,
@@ -178,8 +178,8 @@ impl Controllers {
         lanes.first_mut().map(|lane| lane.step(&at, cycle))
     }
 
-    /// Samples by lanes: the commands, and the status and fault of each. `signals` are those of
-    /// [`Numbers`]; `regressors` has one array for each regressor.
+    /// Processes samples by lanes and returns the commands, statuses and faults. `signals` are
+    /// those of [`Numbers`]. `regressors` has one array for each regressor.
     fn run<'py>(
         &self,
         py: Python<'py>,
@@ -229,7 +229,7 @@ impl Controllers {
         })
     }
 
-    /// Starts each lane from its own output and sample.
+    /// Restarts each lane from its own output and sample.
     fn resume_from(
         &self,
         py: Python<'_>,
@@ -249,7 +249,7 @@ impl Controllers {
             .collect()
     }
 
-    /// Reports the response of each lane's drive to the last command, as JSON.
+    /// Reports the response (JSON) of each lane's drive to the last command.
     fn applied(&self, py: Python<'_>, applied: Vec<String>) -> PyResult<()> {
         let given: Vec<Applied<f64>> = applied
             .iter()
@@ -281,7 +281,7 @@ impl Controllers {
         lanes.iter().map(|lane| lane.law.is_latched()).collect()
     }
 
-    /// The applied command, and the status and fault of the last sample.
+    /// The applied command, the status and the fault of the last sample.
     fn last(&self, py: Python<'_>) -> Vec<Stepped> {
         let lanes = self.lanes.now(py);
         let last = |lane: &Helped| (lane.law.command(), lane.codes.0, lane.codes.1);
@@ -299,7 +299,7 @@ impl Controllers {
         lanes.iter().map(|lane| lane.law.estimates()).collect()
     }
 
-    /// d_hat of each observer; `None` without one.
+    /// d_hat of each observer; `None` without an observer.
     fn disturbances(&self, py: Python<'_>) -> Option<Vec<f64>> {
         let lanes = self.lanes.now(py);
         let all = lanes.iter().map(|lane| lane.beside.disturbance());

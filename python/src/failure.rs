@@ -1,16 +1,16 @@
-//! Errors as Python's `bowden.Error`.
+//! Errors as `bowden.Error` in Python.
 
 use bowden_lab::record::RecordError;
 use pyo3::prelude::*;
 
 pyo3::import_exception!(bowden._error, Error);
 
-/// One line that may begin with a file's name.
+/// An error message in one line, which may begin with a file name.
 pub fn plain(message: impl std::fmt::Display) -> PyErr {
     of(message.to_string(), None, None, None)
 }
 
-/// One line about one of these files: the file whose name begins the line.
+/// An error message about the file whose name begins the line.
 pub fn in_one_of<'a>(files: impl IntoIterator<Item = &'a str>, message: String) -> PyErr {
     let named = files.into_iter().find(|file| {
         let rest = message.strip_prefix(*file);
@@ -20,7 +20,7 @@ pub fn in_one_of<'a>(files: impl IntoIterator<Item = &'a str>, message: String) 
     of(message, file, None, None)
 }
 
-/// The refusal of a record, with its place.
+/// The error of a record, with its position.
 pub fn of_record(error: &RecordError) -> PyErr {
     of(
         error.to_string(),

@@ -1,8 +1,7 @@
-//! Lanes that run side by side behind one Python object: settings, states, copies, and a lock.
+//! Lanes that run side by side behind one Python object: settings, states, copies and a lock.
 //!
-//! A second thread waits for the lock without holding the interpreter's lock, so two threads that
-//! step one object take turns. Settings and states go to Python as JSON, each in the core's own
-//! form, so that the core names the fields and checks the values that come back.
+//! A second thread waits for the lock without holding the interpreter lock. Settings and states go
+//! to Python as JSON in the form of the core, so the core names the fields and checks the values.
 
 use crate::failure;
 use pyo3::prelude::*;
@@ -47,13 +46,14 @@ impl<L: Lane> Lanes<L> {
         self.count
     }
 
-    /// The lanes, as soon as no other thread uses them; for short work that does not call Python.
+    /// The lanes, once no other thread uses them. Use this method for short work that does not call
+    /// Python.
     pub fn now(&self, py: Python<'_>) -> MutexGuard<'_, Vec<L>> {
         let locked = self.all.lock_py_attached(py);
         locked.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The same for a thread that has released the interpreter; for long work.
+    /// The lanes, for a thread that has released the interpreter. Use this method for long work.
     pub fn detached(&self) -> MutexGuard<'_, Vec<L>> {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -66,7 +66,7 @@ impl<L: Lane> Lanes<L> {
         self.now(py).iter().map(Lane::state).collect()
     }
 
-    /// Loads the stored state of every lane; an error changes nothing.
+    /// Loads the stored state of every lane. An error changes nothing.
     pub fn load_state(&self, py: Python<'_>, states: &[String]) -> PyResult<()> {
         self.replace(py, states, |lane, state| lane.restored(state))
     }
@@ -79,7 +79,7 @@ impl<L: Lane> Lanes<L> {
         Self::new(self.now(py).clone())
     }
 
-    /// Makes every lane again from its own text; an error changes nothing.
+    /// Makes every lane again from its text. An error changes nothing.
     pub fn replace(
         &self,
         py: Python<'_>,
@@ -106,7 +106,7 @@ pub fn written<T: Serialize>(value: &T) -> PyResult<String> {
     serde_json::to_string(value).map_err(failure::plain)
 }
 
-/// A value from JSON; the error names no position, because no user has written this text.
+/// A value from JSON. The error contains no position, because no user has written this text.
 pub fn read<T: DeserializeOwned>(text: &str) -> PyResult<T> {
     let value: serde_json::Value = serde_json::from_str(text).map_err(failure::plain)?;
     serde_json::from_value(value).map_err(failure::plain)

@@ -1,4 +1,4 @@
-//! The control laws, each with its state: one implementation for all of them.
+//! The control laws with their states.
 
 use crate::code;
 use crate::code::Codes;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// Most regressors of an adaptive law here.
+/// Maximum number of regressors of an adaptive law in this package.
 const MOST: usize = 4;
 
 /// The functions that this package needs from a law in addition to [`Controller`].
@@ -32,10 +32,10 @@ trait Law:
     fn estimates(state: &Self::State) -> Vec<f64>;
     /// Makes a step and returns its terms.
     fn terms(&self, state: &mut Self::State, at: &LoopSample<'_, f64>) -> Self::Terms;
-    /// Continues a running state with this law; `at` is the last good sample.
+    /// Continues a running state with this law. `at` is the last good sample.
     fn bumpless_transfer(&self, state: &mut Self::State, at: &LoopSample<'_, f64>);
     fn reset(&self, state: &mut Self::State);
-    /// Whether this law can have the stored state.
+    /// Whether the stored state fits this law.
     fn admits(&self, state: &Self::State) -> bool;
 }
 
@@ -59,7 +59,7 @@ impl Law for Pid<f64> {
         state.reset();
     }
 
-    /// Any state works with any of them; its numbers were checked when it was read.
+    /// Any state fits, because its numbers were checked when it was read.
     fn admits(&self, _: &PidState<f64>) -> bool {
         true
     }
@@ -100,7 +100,7 @@ impl<const N: usize> Law for Adaptive<f64, N> {
     }
 }
 
-/// A stored sample; a number that is not finite is written as `null`.
+/// A stored sample. A number that is not finite is written as `null`.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Seen {
@@ -159,7 +159,7 @@ impl Seen {
     }
 }
 
-/// The memory of a law, and the data of its last step that its terms require.
+/// The state of a law, and the data of the last step that its terms require.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Memory<S> {
@@ -219,7 +219,7 @@ impl<C: Law> Running<C> {
         Box::new(Self { law, memory })
     }
 
-    /// Forgets the last step, whose terms now belong to other settings or another state.
+    /// Forgets the last step, because its terms belong to other settings or to another state.
     fn forget_terms(&mut self) {
         self.memory.before = None;
     }
@@ -344,8 +344,8 @@ impl Clone for Box<dyn AnyLaw> {
     }
 }
 
-/// A law from its settings. `regressors` is `None` for PI, PID and PIV, otherwise the number of
-/// regressors.
+/// A law from its settings. `regressors` is the number of regressors, or `None` for PI, PID and
+/// PIV.
 pub fn law(settings: &str, regressors: Option<usize>) -> PyResult<Box<dyn AnyLaw>> {
     fn started<C: Law>(settings: &str) -> PyResult<Box<dyn AnyLaw>> {
         read::<C>(settings).map(Running::start)

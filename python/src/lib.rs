@@ -1,8 +1,8 @@
-//! The native half of the Python package `bowden`. The other half, which documents the public
-//! interface, is the folder `package/bowden`.
+//! The native module of the Python package `bowden`. The folder `package/bowden` documents the
+//! public interface.
 //!
-//! This crate fits and computes nothing: records go to [`bowden_lab::facts`], JSON comes from
-//! [`bowden_cli::view`] and pages from [`bowden_page`], so that Python and the program give the
+//! This crate fits and computes nothing. Records go to [`bowden_lab::facts`], JSON comes from
+//! [`bowden_cli::view`] and pages from [`bowden_page`]. Python and the program therefore give the
 //! same bytes.
 
 mod beside;

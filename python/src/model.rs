@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::de::DeserializeOwned;
 
-/// The text of a model file, checked.
+/// The checked text of a model file.
 #[pyclass(frozen, module = "bowden._bowden")]
 pub struct Model {
     text: String,
@@ -52,7 +52,7 @@ impl Model {
         serde_json::to_string(&table).map_err(failure::plain)
     }
 
-    /// Time constant of the rates that the file states \[s\].
+    /// Time constant of the rates in the file \[s\].
     #[getter]
     fn time_constant(&self) -> Option<f64> {
         let about = self.file.about.as_ref();
@@ -71,7 +71,7 @@ impl Model {
     }
 
     /// The outputs for samples, starting from a new state. `sources` are the input and the
-    /// channels, each (samples, 1) or (samples, 3): position, or position, velocity and
+    /// channels, each (samples, 1) with the position or (samples, 3) with position, velocity and
     /// acceleration.
     fn answers<'py>(
         &self,

@@ -97,7 +97,7 @@ impl Record {
         Ok(all)
     }
 
-    /// The unit of each column by its name, if the record states one.
+    /// The unit of each column by name, if the record contains units.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
@@ -112,7 +112,7 @@ impl Record {
         Ok(all)
     }
 
-    /// Names of the columns of the input and of the output.
+    /// Names of the input and output columns.
     #[getter]
     fn names(&self) -> (&str, &str) {
         (&self.0.input.name, &self.0.output.name)
@@ -151,7 +151,7 @@ impl Record {
     }
 }
 
-/// Reads a file, without the interpreter's lock.
+/// Reads a file without holding the interpreter lock.
 #[pyfunction]
 pub fn record_of_file(py: Python<'_>, path: PathBuf, columns: Columns) -> PyResult<Record> {
     let options = columns.options()?;
@@ -162,7 +162,7 @@ pub fn record_of_file(py: Python<'_>, path: PathBuf, columns: Columns) -> PyResu
     })
 }
 
-/// A record of (name, unit, values); each array is read in place and copied once.
+/// A record of (name, unit, values). Each array is read in place and copied once.
 #[pyfunction]
 pub fn record_of_columns(
     py: Python<'_>,

@@ -1,4 +1,4 @@
-//! The relay experiment, as one of the blocks.
+//! The relay experiment as a block.
 
 use crate::code;
 use crate::lanes::read;
@@ -24,7 +24,7 @@ impl Block for Relay<f64> {
     }
 }
 
-/// 0 running, 1 held, 2 done, the others failures; and the fault of a bad sample.
+/// 0 running, 1 held, 2 done, larger numbers for failures; and the fault of a bad sample.
 fn phase(status: Status, state: &RelayState<f64>) -> code::Codes {
     match status {
         Status::Good if state.result().is_some() => (2, 0),

@@ -1,4 +1,4 @@
-//! Simulated rigs side by side, alone or in a closed loop with controllers.
+//! Simulated rigs side by side, open loop or in a closed loop with controllers.
 
 use crate::beside::Cycle;
 use crate::control::Controllers;
@@ -11,12 +11,12 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-/// Most undeclared effects of a rig.
+/// Maximum number of undeclared effects of a rig.
 const MOST: usize = 8;
 
 type Reading = fn(&RigSample<f64>) -> f64;
 
-/// The signals that are read from a rig, by name.
+/// Names of the signals that are read from a rig.
 const READ: [(&str, Reading); 17] = [
     ("time", |s| s.time),
     ("tau_o", |s| s.tau_o),
@@ -72,7 +72,7 @@ pub struct Rigs {
     lanes: Lanes<Own>,
 }
 
-/// Signals of samples by lanes, filled row by row.
+/// Signals of samples by lanes, written row by row.
 struct Taken([Array2<f64>; READ.len()]);
 
 impl Taken {
@@ -107,7 +107,7 @@ type Tracked<'py> = (
 
 #[pymethods]
 impl Rigs {
-    /// `undeclared` is a model whose channels are the proximal and the distal pulley; the
+    /// `undeclared` is a model whose channels are the proximal and the distal pulley. The
     /// controller does not know its terms.
     #[new]
     fn new(configs: Vec<String>, undeclared: Option<&str>, seeds: Vec<u64>) -> PyResult<Self> {
@@ -162,7 +162,8 @@ impl Rigs {
         taken.named(py)
     }
 
-    /// Runs the commands and loads of samples by lanes; returns the signals after each sample.
+    /// Applies the commands and loads of samples by lanes, and returns the signals after each
+    /// sample.
     fn run<'py>(
         &self,
         py: Python<'py>,
@@ -195,8 +196,8 @@ impl Rigs {
         Ok(taken.named(py))
     }
 
-    /// The closed loop: each controller on its rig, all with one reference, feed-forward and phase.
-    /// Returns the signals before each command, the commands, and the status and fault of each.
+    /// Runs the closed loop of each controller and its rig with a common reference, feed-forward
+    /// and phase. Returns the signals before each command, and the commands, statuses and faults.
     fn track<'py>(
         &self,
         py: Python<'py>,

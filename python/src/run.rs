@@ -1,8 +1,8 @@
-//! Long work outside the interpreter, on its own threads; Ctrl-C stops it.
+//! Long work outside the interpreter on separate threads. Ctrl-C stops the work.
 //!
-//! The calling thread only waits. It passes the messages of the work to Python and checks for
-//! signals twenty times per second. If a signal or the caller's own function raises, it returns at
-//! once, and the work ends at its next message.
+//! The calling thread waits, passes the messages of the work to Python, and checks for signals
+//! twenty times per second. If a signal handler or the caller's function raises an exception, the
+//! call returns at once. The work then ends at its next message.
 
 use crate::failure;
 use pyo3::exceptions::PyRuntimeError;
@@ -22,7 +22,7 @@ enum Message<T> {
     Done(std::thread::Result<T>),
 }
 
-/// The panic payload with which stopped work unwinds.
+/// Panic payload that ends the stopped work.
 struct Stopped;
 
 /// The threads of this process. A forked process has none of its parent's threads.
@@ -50,8 +50,8 @@ fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     Ok(fresh)
 }
 
-/// Runs `work` on `threads` threads; `None` means all threads of the machine. `progress` is called
-/// with the share of the work that is done (0 to 1, `None` if unknown) and the current task.
+/// Runs `work` on `threads` threads; `None` means all threads of the machine. `progress` receives
+/// the completed fraction (0 to 1, `None` if unknown) and the current task.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     threads: Option<usize>,

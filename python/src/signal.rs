@@ -1,4 +1,4 @@
-//! Signal conditioning and the relay experiment, with one lane for each signal of the caller.
+//! Signal conditioning and the relay experiment, with one lane for each signal.
 
 use crate::code;
 use crate::failure;
@@ -14,13 +14,13 @@ use pyo3::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-/// Most output signals of one block.
+/// Maximum number of output signals of a block.
 const MOST: usize = 3;
 
 /// The output for one sample: signals, and the codes of status and fault.
 pub type Out = ([f64; MOST], u8, u8);
 
-/// The functions that this package needs from a block. A new block needs one `impl` and one line in
+/// The functions that this package needs from a block. A new block needs an `impl` and a line in
 /// [`block`].
 pub trait Block: Copy + Serialize + DeserializeOwned + Send + Sync + 'static {
     type State: Copy + Serialize + DeserializeOwned + Send + Sync;
@@ -28,7 +28,7 @@ pub trait Block: Copy + Serialize + DeserializeOwned + Send + Sync + 'static {
     fn start(&self, first: f64) -> Self::State;
     fn step(&self, state: &mut Self::State, sample: f64, dt: f64, moves: bool) -> Out;
 
-    /// Acknowledges a failure; most blocks have none.
+    /// Acknowledges a failure. Most blocks have no failures.
     fn acknowledge(&self, _: &mut Self::State) {}
 }
 
@@ -114,7 +114,7 @@ impl Block for Biquad<f64> {
     }
 }
 
-/// The block's own settings, and its start value.
+/// The settings of the block, and its initial value.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Given<B> {
@@ -264,8 +264,8 @@ impl Blocks {
         lanes.iter_mut().for_each(|lane| lane.0.acknowledge());
     }
 
-    /// Samples by lanes: the signals, and the status and fault of each; `moves` is zero while the
-    /// machine does not move.
+    /// Processes samples by lanes and returns the signals, statuses and faults. `moves` is zero
+    /// while the machine does not move.
     fn run<'py>(
         &self,
         py: Python<'py>,

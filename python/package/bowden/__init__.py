@@ -1,4 +1,4 @@
-"""Hysteretic cable transmissions: identifies models from records, and simulates and controls rigs.
+"""Identifies models of hysteretic cable transmissions, and simulates and controls rigs.
 
 >>> import bowden
 >>> report = bowden.identify("record.csv")               # doctest: +SKIP

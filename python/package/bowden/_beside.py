@@ -1,4 +1,4 @@
-"""Additions to a controller's command: a disturbance observer and iterative learning."""
+"""Additions to the command of a controller: disturbance observer and iterative learning."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _count(name: str, value: Any) -> int:
 
 
 class NominalPlant(Settings):
-    """The nominal plant alpha/(s²/wn² + 2·zeta·s/wn + 1) from command to output.
+    """Nominal plant alpha/(s²/wn² + 2·zeta·s/wn + 1) from command to output.
 
     If the gain and the natural frequency are uncertain, choose low values.
     """
@@ -44,7 +44,7 @@ class NominalPlant(Settings):
 
     @classmethod
     def of_mechanics(cls, gain: Any, inertia: Any, damping: Any, stiffness: Any) -> NominalPlant:
-        """A motor, with inertia [kg·m²] and damping [N·m·s/rad], and a stiffness [N·m/rad]."""
+        """The plant of a motor: inertia [kg·m²], damping [N·m·s/rad], stiffness [N·m/rad]."""
         inertia, stiffness = _real("inertia", inertia), _real("stiffness", stiffness)
         damping = _real("damping", damping)
         if not (inertia > 0.0 and stiffness > 0.0):
@@ -54,9 +54,9 @@ class NominalPlant(Settings):
         return cls(gain=gain, natural_frequency=frequency, damping_ratio=ratio)
 
     def feed_forward(self, output: Any, velocity: Any = 0.0, acceleration: Any = 0.0) -> Any:
-        """The command [command unit] for this motion of the plant's output [N·m, N·m/s, N·m/s²].
+        """The command [command unit] for which the output of the plant has this motion.
 
-        The arguments are numbers, or arrays of one shape.
+        The arguments, in [N·m], [N·m/s] and [N·m/s²], are numbers or arrays of one shape.
         """
         named = {"output": output, "velocity": velocity, "acceleration": acceleration}
         given = [_numbers.numbers(name, own) for name, own in named.items()]
@@ -76,27 +76,27 @@ class NominalPlant(Settings):
 class DisturbanceObserver(Settings):
     """Estimates friction and load by comparison with the nominal plant, and compensates them.
 
-    Pass it to a controller (``PI(observer=…)``), which adds the estimate to its command.
+    Pass the observer to a controller (``PI(observer=…)``), which adds the estimate to its command.
     ``bowden certify`` shows whether the loop is stable for plants near the reference rig.
     """
 
     plant: NominalPlant = setting(
-        convert=instance(NominalPlant), kw_only=False, doc="A NominalPlant."
+        convert=instance(NominalPlant), kw_only=False, doc="Nominal plant, a NominalPlant."
     )
     time_constant: float = setting(
-        convert=_time, kw_only=False, doc="tau of Q = 1/(tau·s + 1)² [s]."
+        convert=_time, kw_only=False, doc="tau of the filter Q = 1/(tau·s + 1)² [s]."
     )
     limit: float = setting(
-        convert=_real, kw_only=False, doc="Greatest magnitude of the estimate [command unit]."
+        convert=_real, kw_only=False, doc="Largest magnitude of the estimate [command unit]."
     )
     latency: float = setting(
         default=0.0,
         convert=_time,
-        doc="Time from a command to its effect in the measured output, without the response of the "
-        "nominal plant [s].",
+        doc="Delay from a command to the measured output, without the response of the nominal "
+        "plant [s].",
     )
     longest_dt: Any = setting(
-        default=None, convert=_time, doc="Longest dt of a good sample [s]; None: any."
+        default=None, convert=_time, doc="Longest dt of a good sample [s]; None: no limit."
     )
 
     def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -113,29 +113,29 @@ class DisturbanceObserver(Settings):
 
 
 class IterativeLearning(Settings):
-    """Learns a feed-forward from the error of earlier cycles of a repeating task.
+    """Learns a feed-forward from the error in earlier cycles of a repeating task.
 
-    Pass it to a controller (``PI(learning=…)``). Each sample then needs a ``phase``.
+    Pass this object to a controller (``PI(learning=…)``). Each sample then needs a ``phase``.
     """
 
     gain: float = setting(
-        convert=_real, kw_only=False, doc="Gain of the error [command unit/(N·m)]."
+        convert=_real, kw_only=False, doc="Learning gain [command unit/(N·m)]."
     )
     limit: float = setting(
-        convert=_real, kw_only=False, doc="Greatest magnitude of the learned values [command unit]."
+        convert=_real, kw_only=False, doc="Largest magnitude of the learned values [command unit]."
     )
-    cells: int = setting(convert=_count, doc="Number of cells of a cycle.")
+    cells: int = setting(convert=_count, doc="Number of cells in a cycle.")
     lead: int = setting(
-        default=0, convert=_count, doc="Number of cells from a command to its effect."
+        default=0, convert=_count, doc="Number of cells between a command and its effect."
     )
-    half_width: int = setting(default=0, convert=_count, doc="Half width of the filter [cells].")
+    half_width: int = setting(default=0, convert=_count, doc="Half-width of the filter [cells].")
     forgetting: float = setting(
-        default=0.0, convert=_real, doc="Share that is forgotten per cycle, from 0 to 1."
+        default=0.0, convert=_real, doc="Fraction that is forgotten per cycle, 0 to 1."
     )
     learned: Any = setting(
         default=None,
         convert=_numbers.numbers,
-        doc="The `learned` values of another controller, to continue from them; None: zeros.",
+        doc="Initial learned values, such as `learned` of another controller; None: zeros.",
     )
 
     def _made(self, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The native half; the package documents its public part."""
+"""Types of the native module. The package documents the public interface."""
 
 from typing import Any, Callable, Optional, TypeVar
 

@@ -1,4 +1,4 @@
-"""Does a model still hold on the next record?"""
+"""Validates a model on another record."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def validate(
     label: Optional[str] = None,
     threads: Optional[int] = None,
 ) -> CheckReport:
-    """Tests a model on another record of the same rig, fitting only a gain and an offset.
+    """Tests a model on another record of the same rig. Only a gain and an offset are fitted.
 
     ``model`` is a :class:`Model` or the path of a ``.toml``. The record and the reading options are
     as in :func:`bowden.identify`.

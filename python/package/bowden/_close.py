@@ -45,70 +45,70 @@ def identify(
     threads: Optional[int] = None,
     progress: Any = None,
 ) -> Report:
-    """Fits the baseline model, finds the effects that it lacks, adds them, and compares the models.
+    """Fits a baseline model, adds the effects that it lacks, and compares the models.
 
     The record is one of
 
     * arrays: ``identify(t, tau_i=…, tau_o=…)`` in torque mode, ``identify(t, x=…, f=…)`` in
-      displacement mode; they are one-dimensional, have the same length and any numeric type;
-      ``t`` is in seconds, or ``None`` with ``rate``;
-    * a record: a path (CSV, JSON, .xlsx, .mat v5 and v7.3, Parquet, .npz or .npy, each also in gzip), a frame of pandas or
-      polars, a table of pyarrow, a mapping of names to arrays, or a :class:`bowden.Record`;
-    * a list of such records of one rig, for one joint model; with three or more, the last one is
-      held out as a whole.
+      displacement mode. The arrays are one-dimensional, of equal length and of any numeric type.
+      ``t`` is in seconds, or ``None`` with ``rate``.
+    * a record: a pandas or polars frame, a pyarrow table, a mapping of names to arrays, a
+      :class:`bowden.Record`, or the path of a file (CSV, JSON, .xlsx, .mat v5 or v7.3, Parquet,
+      .npz or .npy; gzip is allowed).
+    * a list of such records of one rig, for one joint model. Of three or more records, the last
+      one is held out as a whole.
 
-    Options of the program `bowden identify`, under the same names:
+    Options of the program `bowden identify`, with the same names:
 
     channels
         Further channels by name (``phi_p``, ``phi_d``, ``temperature``, ``load``, or any other).
-        Each is an array, the name of a column, or ``"A-B"`` or ``"A+B"`` of two columns.
+        Each is an array, a column name, or ``"A-B"`` or ``"A+B"`` of two columns.
     baseline
-        The baseline model: ``bouc-wen`` and any effects; ``"NAME@CHANNEL"`` reads a channel.
-        Either a list, or one text with commas as for the program.
+        Baseline model: ``bouc-wen`` and any effects, as a list or as one text with commas.
+        ``"NAME@CHANNEL"`` reads a channel.
     mode
         ``"torque"`` or ``"displacement"``; default: from the columns.
     time, input, output
-        Names of columns; default: ``t``, ``tau_i`` or ``x``, and ``tau_o`` or ``f``.
+        Column names; default: ``t``, ``tau_i`` or ``x``, and ``tau_o`` or ``f``.
     start, end
-        Seconds after the first time stamp at which the record is cut.
+        Times at which the record is cut, from the first time stamp [s].
     cutoff
-        Cut-off of the low-pass filter [Hz]; default: from the spectrum of the input.
+        Cut-off frequency of the low-pass filter [Hz]; default: from the spectrum of the input.
     rate
-        Sampling rate [Hz]; time is then computed from the row number.
+        Sampling rate [Hz]. Time is then computed from the row number.
     header_line
-        Line of the column names of a CSV, from 1.
+        Line number of the column names in a CSV, from 1.
     segment
-        Which segment of a CSV is read if its column names are repeated, from 1; default: all of
-        them as one record if the time continues.
+        Segment to read from a CSV whose column names are repeated, from 1; default: all segments
+        as one record if the time continues.
     sheet
-        The sheet of an Excel workbook; default: the first one with a table.
+        Sheet of an Excel workbook; default: the first sheet with a table.
     names
-        Names of the columns of a text file without names, each with its unit if it has one
+        Column names for a text file without names, with units if known
         (``["t", "x [mm]", "f"]``). A column with an empty name is not read.
     drop_bad
-        Leave out rows with an empty cell, a NaN or a repeated time stamp.
+        Drop rows with an empty cell, a NaN or a repeated time stamp.
     max_terms, time_limit
-        Highest number of added terms (0 to 8); time after which the search ends [s].
+        Maximum number of added terms (0 to 8); time limit of the search [s].
     per_file
-        ``"gains"``: the gains may differ from file to file.
+        ``"gains"``: the gains may differ between files.
     invertible
-        Fit the exported model within what a feed-forward can invert.
+        Restrict the exported model to models that a feed-forward can invert.
 
     Further options in Python:
 
     units
-        Unit of each column by name, as in the header of a CSV (``{"tau_i": "N·m"}``); for arrays
-        and frames.
+        Units of the columns of arrays and frames by name (``{"tau_i": "N·m"}``).
     label
-        Replaces the file's name in messages and in the JSON, for arrays and frames.
+        Name of arrays or of a frame in messages and in the JSON.
     figures
-        ``False`` keeps no figures, page, trace or model; for many records.
+        ``False`` keeps no figures, page, trace or model. Use it for many records.
     threads
         Number of threads; default: all threads of the machine. The results do not depend on it.
     progress
         ``True`` for a new tqdm bar, an existing tqdm bar, or a function. The function is called
-        with the share that is done (``None`` if unknown) and the current task. If it raises, the
-        call ends. Ctrl-C ends the call too.
+        with the completed fraction (``None`` if unknown) and the current task. An exception in the
+        function ends the call, and so does Ctrl-C.
 
     Raises :class:`bowden.Error`.
     """
@@ -185,7 +185,7 @@ def records_of(
 
 
 def threads_of(threads: Optional[int]) -> Optional[int]:
-    """The number of threads, checked."""
+    """Checks the number of threads."""
     if threads is None:
         return None
     return whole("threads", threads, 1, 2**16, "one or more are allowed")

@@ -15,7 +15,7 @@ Column = tuple[str, Optional[str], "np.ndarray[Any, np.dtype[np.float64]]"]
 
 
 def list_of_names(names: Any) -> list[str]:
-    """The names of the columns of a text file without names: a list of texts."""
+    """The column names for a text file without names, as a list of texts."""
     if names is None:
         return []
     allowed = "a list of names is allowed"
@@ -45,14 +45,14 @@ def is_path(source: object) -> bool:
 
 
 def is_frame(source: object) -> bool:
-    """Whether it has named columns: a frame, a pyarrow table, a mapping or a structured array."""
+    """Whether it is a frame, a pyarrow table, a mapping or a structured array."""
     if isinstance(source, np.ndarray):
         return source.dtype.names is not None
     return isinstance(source, Mapping) or hasattr(source, "columns") or hasattr(source, "column_names")
 
 
 def check_units(units: Mapping[str, str], names: Iterable[object]) -> None:
-    """Refuses a unit for a column that does not exist."""
+    """Rejects a unit for a column that does not exist."""
     known = [str(name) for name in names]
     for name, unit in units.items():
         if name not in known:
@@ -73,7 +73,7 @@ def names_of(frame: Any) -> Iterable[object]:
 
 
 def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:
-    """The numeric columns of a frame; others are left out, as those of a Parquet file are."""
+    """The numeric columns of a frame. Other columns are dropped, as in a Parquet file."""
     found: list[Column] = []
     for name in names_of(frame):
         column = values_of(frame[name])
@@ -85,13 +85,13 @@ def columns_of_frame(frame: Any, units: Mapping[str, str]) -> list[Column]:
 
 
 def is_timed(column: Any) -> bool:
-    """Whether it holds durations or points in time."""
+    """Whether the values are durations or points in time."""
     found = values_of(column)
     return found is not None and found.dtype.kind in "mM"
 
 
 def refuse_times(name: str, column: Any) -> None:
-    """Refuses durations and points in time for a signal."""
+    """Rejects durations and points in time for a signal."""
     if is_timed(column):
         raise Error(
             f"column `{name}`: values of {getattr(column, 'dtype', type(column).__name__)}; "
@@ -101,7 +101,7 @@ def refuse_times(name: str, column: Any) -> None:
 
 
 def column_of_array(name: str, array: Any, units: Mapping[str, str]) -> Column:
-    """A column from one array, which must be a column."""
+    """A column from a one-dimensional array."""
     found = values_of(array)
     numbers = None if found is None else _numbers(found)
     if found is None or numbers is None:
@@ -139,8 +139,8 @@ def _numbers(
 ) -> Optional[tuple[np.ndarray[Any, np.dtype[np.float64]], Optional[str]]]:
     """The values as doubles, without a copy if they are doubles already.
 
-    Points in time count from the first. So do durations and whole numbers (time stamps in
-    nanoseconds) that are too large for a double.
+    Points in time are relative to the first one. So are durations and whole numbers that are too
+    large for a double, such as time stamps in nanoseconds.
     """
     if values.dtype.kind in "iu" and values.ndim == 1 and _is_beyond(values):
         # Differences of 64 bits are right, whatever the sign of the first.
@@ -165,5 +165,5 @@ def _is_long(durations: np.ndarray[Any, Any]) -> bool:
 
 
 def _is_beyond(numbers: np.ndarray[Any, Any]) -> bool:
-    """Whether a double cannot represent every one of these whole numbers."""
+    """Whether a double cannot represent one of these whole numbers exactly."""
     return bool(numbers.size) and (int(numbers.max()) > 2**53 or int(numbers.min()) < -(2**53))

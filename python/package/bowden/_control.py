@@ -1,4 +1,4 @@
-"""Controllers, one or many side by side: the common part of all laws."""
+"""The common part of all controllers."""
 
 from __future__ import annotations
 
@@ -48,47 +48,46 @@ class Controller(Changing):
     """A torque controller with its state: :class:`PI`, :class:`PID`, :class:`PIV` or
     :class:`Adaptive`.
 
-    If a setting is an array, there is one controller for each value, side by side. With ``lanes``
-    there are that many controllers with the same settings. Times are in seconds, or durations with
-    a unit.
+    If a setting is an array, there is one controller (lane) for each value. ``lanes`` makes that
+    many controllers with the same settings. Times are in seconds, or durations with a unit.
 
-    Each setting is also an attribute, which cannot be assigned. :meth:`bumpless_transfer` changes
-    the settings of a running controller without a jump of the command.
+    Each setting is also a read-only attribute. :meth:`bumpless_transfer` changes the settings of a
+    running controller without a jump of the command.
 
-    As in a simulation, there are no limits by default: without ``limits`` any command is applied,
-    without ``longest_dt`` any positive ``dt`` is good, and without ``fallback`` the last good
-    command is held indefinitely. A machine needs all three.
+    The defaults are for a simulation. Without ``limits`` any command is applied, without
+    ``longest_dt`` any positive ``dt`` is good, and without ``fallback`` the last good command is
+    held indefinitely. A machine needs all three settings.
 
     The estimate of the ``observer`` and the feed-forward of ``learning`` are added to the command
-    before its limits, separately for each lane.
+    of each lane before its limits.
 
-    Copies are independent: ``copy.copy``, ``copy.deepcopy`` and ``pickle`` copy settings and state.
-    A second thread waits while the first one steps.
+    ``copy.copy``, ``copy.deepcopy`` and ``pickle`` copy the settings and the state. A second thread
+    waits while the first one steps.
     """
 
     limits: Any = setting(
         default=None,
         convert=limits_of,
         core=False,
-        doc="(low, high) of the command [command unit]; None: no limits.",
+        doc="Range (low, high) of the command [command unit]; None: no limits.",
     )
     slew: Any = setting(
         default=None,
         core=False,
-        doc="Slew-rate limit of the command [command unit/s], with limits; None: none.",
+        doc="Slew-rate limit of the command [command unit/s], with limits; None: no limit.",
     )
     longest_dt: Any = setting(
         default=None,
         convert=duration,
         core=False,
-        doc="Longest dt of a good sample [s]; None: any.",
+        doc="Longest dt of a good sample [s]; None: no limit.",
     )
     fallback: Any = setting(
         default=None,
         convert=pair("after", "command", count(_MOST_COUNT)),
         core=False,
-        doc="(bad samples in a row, safe command [command unit]); None: the last good command is "
-        "held indefinitely.",
+        doc="(number of consecutive bad samples, safe command [command unit]); None: the last "
+        "good command is held indefinitely.",
     )
     fallback_weight: Any = setting(
         default=None,
@@ -110,7 +109,7 @@ class Controller(Changing):
 
     @classmethod
     def _regressors(cls, documents: list[str]) -> Any:
-        """The number of regressors; None for a law without such a list."""
+        """The number of regressors; None for a law without regressors."""
         return None
 
     @classmethod
@@ -165,17 +164,17 @@ class Controller(Changing):
         phase: Any = None,
         learns: Any = True,
     ) -> StepResult:
-        """One sample: command, status and fault.
+        """Processes one sample and returns the command, the status and the fault.
 
         ``dt`` is the time since the last sample [s], or a duration with a unit. ``reference`` and
         ``measured`` are in [N·m]. PIV reads ``velocity`` [rad/s]. The adaptive law reads
-        ``regressors``: for each one number, or one for each lane. Learning reads ``phase``, the
-        position in the cycle from 0 to 1, and ``learns``, whether it learns from the sample (set it
-        to False if a limit cut the command, or during another task).
+        ``regressors``, each with one number or one for each lane. Iterative learning reads
+        ``phase``, the position in the cycle from 0 to 1. Set ``learns`` to False if a limit cut the
+        command, or during another task.
 
-        A bad sample (NaN, or a ``dt`` that is not positive) does not raise: the command is held,
-        and status and fault report the bad input. A value that is not a number raises
-        :class:`bowden.Error`.
+        A bad sample (NaN, or a ``dt`` that is not positive) does not raise an error. The command is
+        then held, and the status and the fault report the bad input. A value that is not a number
+        raises :class:`bowden.Error`.
         """
         following = reference if next_reference is None else next_reference
         more = (velocity, feed_forward, phase, learns)
@@ -203,11 +202,12 @@ class Controller(Changing):
         phase: Any = None,
         learns: Any = True,
     ) -> RunResult:
-        """Many samples: commands, statuses and faults, each (samples,) or (samples, lanes).
+        """Processes many samples.
 
-        ``dt`` is one time or (samples,), in seconds or as durations with a unit. Each signal is a
-        number, (samples,) for all lanes, or (samples, lanes). By default, the reference at the next
-        sample is the next row of the reference. Everything else is as in :meth:`step`.
+        The commands, statuses and faults have the shape (samples,) or (samples, lanes). ``dt`` is
+        one time or (samples,), in seconds or as durations with a unit. Each signal is a number,
+        (samples,) for all lanes, or (samples, lanes). By default, the reference at the next sample
+        is the next row of the reference. See :meth:`step` for the signals.
         """
         samples = _numbers.samples_of(dt, reference, measured)
         more = (velocity, feed_forward, phase, learns, regressors)
@@ -287,11 +287,11 @@ class Controller(Changing):
         return 0.0 if phase is None else phase
 
     def terms(self) -> Fields:
-        """Every term of the last step, by name: ``terms().integral``, or ``terms()["integral"]``.
+        """The terms of the last step: ``terms().integral`` or ``terms()["integral"]``.
 
-        With several lanes each term is an array. For PI, PID and PIV, the terms after a bad sample
-        are those of the last good one. For the adaptive law, the estimates are those that the
-        step used.
+        With several lanes each term is an array. After a bad sample, the terms of PI, PID and PIV
+        are those of the last good sample. The terms of the adaptive law contain the estimates that
+        the step used.
         """
         return Fields(merged([json.loads(text) for text in self._native.terms()]))
 
@@ -306,10 +306,11 @@ class Controller(Changing):
         feed_forward: Any = 0.0,
         regressors: Sequence[Any] = (),
     ) -> StepResult:
-        """Starts so that the command continues from ``output`` [command unit] without a jump.
+        """Restarts so that the command continues from ``output`` [command unit] without a jump.
 
         Use this method for a transfer from another controller or from manual control. The other
-        arguments are the sample at the transfer. It does nothing while the safe command is latched.
+        arguments are the sample at the transfer. The method has no effect while the safe command is
+        latched.
         """
         lanes = len(self._native)
 
@@ -338,12 +339,12 @@ class Controller(Changing):
         return StepResult(*(np.array(own) for own in zip(*lanes)))
 
     def applied(self, what: Any) -> None:
-        """Reports the drive's response to the last command; call this method between two steps.
+        """Reports the response of the drive to the last command. Call it between two steps.
 
         ``what`` is the applied command [command unit], ``"at-upper-limit"`` (the drive applied less
-        than the command, by an unknown amount), ``"at-lower-limit"``, or ``"as-commanded"``, which
-        is the same as no call. With several lanes it is one value for all, or a sequence with one
-        for each. A number that is not finite is ignored.
+        than the command, by an unknown amount), ``"at-lower-limit"`` or ``"as-commanded"``. With
+        several lanes, ``what`` is one value for all lanes, or a sequence with one value for each. A
+        number that is not finite is ignored.
 
         The slew-rate limit, anti-windup and a bumpless start then continue from the applied
         command.
@@ -358,23 +359,23 @@ class Controller(Changing):
         self._native.applied([_applied(own) for own in each])
 
     def acknowledge(self) -> None:
-        """Acknowledges the fault: the next good sample closes the loop again."""
+        """Acknowledges the fault. The next good sample closes the loop again."""
         self._native.acknowledge()
 
     def reset(self) -> None:
-        """Resets all but the applied command, the bad samples and a latched safe command."""
+        """Resets all but the applied command, the fault counter and a latched safe command."""
         self._native.reset()
 
     def restore(self) -> None:
-        """Prepares a stored state for a start after a power-off: no command is applied.
+        """Prepares a stored state for a restart after a power-off, when no command is applied.
 
-        The estimates of an adaptive law are kept, and so is a latched safe command.
+        The estimates of an adaptive law are kept. A latched safe command stays latched.
         """
         self._native.restore()
 
     @property
     def is_latched(self) -> Any:
-        """Whether the safe command is applied until :meth:`acknowledge`."""
+        """Whether the safe command is latched until :meth:`acknowledge`."""
         return self._single(self._native.are_latched())
 
     @property
@@ -405,7 +406,7 @@ class Controller(Changing):
 
     @property
     def disturbance(self) -> Any:
-        """d_hat of the observer, added to the command [command unit]; ``None`` without one."""
+        """d_hat of the observer [command unit]; ``None`` without an observer."""
         all = self._native.disturbances()
         return all if all is None else all[0] if self._alone else np.asarray(all)
 
@@ -413,6 +414,6 @@ class Controller(Changing):
     def learned(self) -> Any:
         """The learned value of each cell [command unit], (cells,) or (lanes, cells).
 
-        ``None`` without learning. ``IterativeLearning(…, learned=…)`` continues from it."""
+        ``None`` without learning. ``IterativeLearning(…, learned=…)`` continues from them."""
         all = self._native.learned()
         return all if all is None else np.asarray(all[0] if self._alone else all)

@@ -1,4 +1,4 @@
-"""The errors of a bad record, a bad option or a bad model."""
+"""The errors for a bad record, a bad option or a bad model."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Optional
 
 
 class Error(ValueError):
-    """One line that states what is wrong, and where if the place is known.
+    """One line that describes the error and, if known, its position.
 
-    ``file``, ``line`` (from 1; the row for arrays and for files without lines) and
-    ``column`` are ``None`` if they do not apply.
+    ``file``, ``line`` (from 1; the row in arrays and in files without lines) and ``column`` are
+    ``None`` if they do not apply.
     """
 
     def __init__(
@@ -30,7 +30,7 @@ class Error(ValueError):
 
 
 class FrozenError(Error, AttributeError):
-    """An assignment to an attribute that cannot be assigned."""
+    """An assignment to a read-only attribute."""
 
 
 class CallError(Error, TypeError):
@@ -53,7 +53,7 @@ _OPTION = re.compile(
 
 
 def _in_python(message: str) -> str:
-    """The message with the options' names in Python."""
+    """The message with the Python names of the options."""
     for program, python in _OTHER.items():
         message = message.replace(program, python)
     return _OPTION.sub(lambda found: found.group(1).replace("-", "_") + "=", message)

@@ -1,4 +1,4 @@
-"""JSON objects with their keys as attributes."""
+"""JSON objects whose keys are attributes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, Iterator
 
 
 class Fields:
-    """A JSON object: each key is an attribute (``from`` is ``from_``); also a read-only mapping."""
+    """A JSON object as a read-only mapping. Each key is an attribute (``from`` is ``from_``)."""
 
     __slots__ = ("_all",)
 
@@ -62,7 +62,7 @@ class Fields:
 
 
 def wrapped(value: Any) -> Any:
-    """A JSON value, with objects as :class:`Fields`."""
+    """A JSON value whose objects are :class:`Fields`."""
     if isinstance(value, dict):
         return Fields(value)
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""Objects that run, one or many side by side, with a state that can be copied and stored."""
+"""Objects with one or many lanes, and with a state that can be copied and stored."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _number_of_lanes(name: str, value: Any) -> int:
 
 
 class Lanes(Settings):
-    """Lanes that run side by side; several threads may use them, and take turns."""
+    """Lanes that run side by side. Several threads may use them, but only one at a time."""
 
     lanes: Any = setting(
         default=None,
@@ -60,30 +60,30 @@ class Lanes(Settings):
 
     @classmethod
     def _kept(cls, values: Mapping[str, Any]) -> dict[str, Any]:
-        """The settings that the native half does not know."""
+        """The settings that the native module does not know."""
         return {}
 
     @classmethod
     def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> Any:
-        """The native half, from the settings of each lane."""
+        """The native object, from the settings of each lane."""
         raise NotImplementedError
 
     @classmethod
     def _to_core(cls, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Settings in the core's form."""
+        """Settings in the form of the core."""
         own = {n: values[n] for n, s in cls._SETTINGS.items() if s.core}
         return {name.rstrip("_"): value for name, value in own.items() if value is not None}
 
     @classmethod
     def _from_core(cls, core: Mapping[str, Any]) -> dict[str, Any]:
-        """Settings of one lane, from the core's form."""
+        """Settings of one lane, from the form of the core."""
         return {n: core.get(n.rstrip("_")) for n, s in cls._SETTINGS.items() if s.core}
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting by name, as the constructor accepts it: ``type(it)(**it.settings)``.
+        """The settings by name, as the constructor accepts them: ``type(it)(**it.settings)``.
 
-        With several lanes it is one value that all share, or an array with one for each.
+        With several lanes, a setting is one common value or an array with one value for each lane.
         """
         lanes = [self._from_core(json.loads(text)) for text in self._native.settings()]
         found = {**merged(lanes), **self._rest}
@@ -91,16 +91,15 @@ class Lanes(Settings):
 
     @property
     def state(self) -> dict[str, Any]:
-        """The whole state as plain numbers, lists and mappings, which JSON can store."""
+        """The whole state as numbers, lists and mappings, which JSON can store."""
         lanes = [json.loads(text) for text in self._native.states()]
         return {"schema": SCHEMA, "of": type(self).__name__, "lanes": lanes}
 
     def load_state(self, state: Mapping[str, Any]) -> None:
-        """Continues from a :attr:`state` of an object with the same settings.
+        """Continues from the :attr:`state` of an object with the same settings.
 
-        Raises :class:`bowden.Error`, and changes nothing, if the state belongs to another class or
-        to another number of lanes or regressors, or contains numbers that these settings do not
-        allow.
+        Raises :class:`bowden.Error` if the class, the number of lanes or the number of regressors
+        differs, or if these settings do not allow a number in the state. An error changes nothing.
         """
         own = type(self).__name__
         if not isinstance(state, Mapping) or state.get("schema") != SCHEMA:
@@ -120,11 +119,11 @@ class Lanes(Settings):
         self._native.restart()
 
     def _single(self, values: Any) -> Any:
-        """The value of one lane, or an array of them."""
+        """The value of one lane, or an array with one value for each lane."""
         return values[0] if self._alone else np.asarray(values)
 
     def _rows(self, values: Any) -> Any:
-        """Rows of one lane, or of all lanes."""
+        """The rows of one lane, or of all lanes."""
         return values[:, 0] if self._alone else values
 
     def __copy__(self: _L) -> _L:
@@ -141,16 +140,15 @@ class Lanes(Settings):
 
 
 class Changing(Lanes):
-    """Lanes whose settings may change while they run."""
+    """Lanes whose settings can change while they run."""
 
     _INSTEAD: ClassVar[str] = "bumpless_transfer({}=…) changes it without a jump of the command"
 
     def bumpless_transfer(self, **settings: Any) -> None:
-        """Continues with other settings, without a jump of the command (bumpless transfer).
+        """Changes the given settings without a jump of the command (bumpless transfer).
 
-        Any setting may change except ``lanes``, ``observer``, ``learning`` and the number of
-        regressors. Settings that are not given stay as they are. If the new settings are refused,
-        nothing changes.
+        ``lanes``, ``observer``, ``learning`` and the number of regressors cannot change. An error
+        changes nothing.
         """
         self._check_names(settings)
         for name in self._rest.keys() & settings.keys():
@@ -178,7 +176,7 @@ def _restored(
 
 
 def each_lane(settings: Mapping[str, Any], lanes: Optional[int]) -> tuple[list[str], bool]:
-    """The settings of each lane as JSON (arrays give one lane per value), and whether it is one."""
+    """The settings of each lane as JSON, and whether there is only one lane."""
     lengths = {name: length for name, length in _lengths("", settings)}
     counts = set(lengths.values()) | ({lanes} if lanes is not None else set())
     if len(counts) > 1:
@@ -215,7 +213,7 @@ def _of_lane(value: Any, lane: int) -> Any:
 
 
 def merged(lanes: list[Any]) -> Any:
-    """Values of several lanes: the one that all share, or an array of numbers, at each place."""
+    """Merges the values of several lanes: each is one common value or an array of numbers."""
     first = lanes[0]
     if all(one == first for one in lanes):
         return first

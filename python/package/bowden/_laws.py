@@ -1,4 +1,4 @@
-"""The laws of control: PI, PID, PIV and the robust adaptive law."""
+"""The control laws: PI, PID, PIV and the robust adaptive law."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._settings import GREATEST, duration, one_of, real, setting
 
 
 class Linear(Controller):
-    """What PI, PID and PIV have in common."""
+    """The common part of PI, PID and PIV."""
 
     k_p: Any = setting(
         default=30.0, kw_only=False, doc="Proportional gain [command unit/output unit]."
@@ -22,33 +22,34 @@ class Linear(Controller):
         default=18.0, kw_only=False, doc="Integral gain [command unit/(output unit·s)]."
     )
     setpoint_weight: Any = setting(
-        default=None, doc="Set-point weight b of the proportional term, from 0 to 1; None: 1."
+        default=None, doc="Set-point weight b of the proportional term, 0 to 1; None: 1."
     )
     anti_windup: Any = setting(
         default=None,
         convert=one_of("none", "clamp", "back-calculation", "conditional"),
         core=False,
-        doc="Anti-windup method: none, clamp, back-calculation (with tracking_time) or "
+        doc="Anti-windup method: none, clamp, back-calculation (requires tracking_time) or "
         "conditional; None: conditional.",
     )
     tracking_time: Any = setting(
         default=None,
         convert=duration,
         core=False,
-        doc="T_t of the back-calculation [s]; k_p/k_i is a usual choice.",
+        doc="Time constant T_t of back-calculation [s]; k_p/k_i is a usual choice.",
     )
     integral_limit: Any = setting(
         default=None,
-        doc="Greatest magnitude of the integral term [command unit]; None: any.",
+        doc="Largest magnitude of the integral term [command unit]; None: no limit.",
     )
     deadband: Any = setting(
         default=None,
-        doc="The integral is frozen while |error| is at most this [output unit]; None: 0.",
+        doc="Deadband of the integral: it is frozen while |error| is at most this value "
+        "[output unit]; None: 0.",
     )
     period: Any = setting(
         default=None,
-        doc="Period of an output that wraps [output unit], such as 360: the error is measured "
-        "along the shorter way round; None: the output does not wrap.",
+        doc="Period of an output that wraps [output unit], such as 360; None: the output does not "
+        "wrap. The error is measured along the shorter way round.",
     )
 
     @classmethod
@@ -72,14 +73,15 @@ class Linear(Controller):
 
 
 class PI(Linear):
-    """PI (15); the default gains are those of Table 1 in Nguyen et al. (2018).
+    """PI controller, equation (15) of Nguyen et al. (2018).
 
-    Limits, longest ``dt`` and fallback apply only if they are given: see :class:`Controller`.
+    The default gains are those of Table 1. :class:`Controller` describes limits, longest ``dt`` and
+    fallback.
     """
 
 
 class PID(Linear):
-    """PID (14): the derivative is filtered over ``derivative_time``."""
+    """PID controller, equation (14), with a filtered derivative."""
 
     k_d: Any = setting(
         default=2.0, kw_only=False, doc="Derivative gain [command unit·s/output unit]."
@@ -88,12 +90,12 @@ class PID(Linear):
         default=0.1,
         kw_only=False,
         convert=duration,
-        doc="Time constant of the derivative's filter [s]; 0: no filter.",
+        doc="Time constant of the derivative filter [s]; 0: no filter.",
     )
     derivative_weight: Any = setting(
         default=None,
         core=False,
-        doc="Set-point weight c of the derivative: 0 is the measurement, 1 the error; None: 0.",
+        doc="Set-point weight c of the derivative, 0 (measurement) to 1 (error); None: 0.",
     )
 
     @classmethod
@@ -108,10 +110,10 @@ class PID(Linear):
 
 
 class PIV(Linear):
-    """PIV (16): ``k_d`` multiplies the measured distal velocity."""
+    """PIV controller, equation (16): ``k_d`` multiplies the measured distal velocity."""
 
     k_d: Any = setting(
-        default=10.0, kw_only=False, doc="Gain of the velocity [command unit·s/rad]."
+        default=10.0, kw_only=False, doc="Velocity gain [command unit·s/rad]."
     )
 
     @classmethod
@@ -192,11 +194,11 @@ def _missing(name: str, value: Any) -> Any:
 
 
 class Adaptive(Controller):
-    """The robust adaptive law (17)-(26); the defaults are Table 2 of Nguyen et al. (2018).
+    """The robust adaptive law, equations (17)-(26) of Nguyen et al. (2018).
 
-    An estimate is a mapping with the keys ``initial``, ``low``, ``high`` (None: no bound),
-    ``gain``, ``leakage`` and ``prior``. The leakage is a rate [1/s],
-    ``("switching", rate, bound)``, or None.
+    The defaults are those of Table 2. An estimate is a mapping with the keys ``initial``, ``low``,
+    ``high`` (None: no bound), ``gain``, ``leakage`` and ``prior``. The leakage is a rate [1/s],
+    ``("switching", rate, bound)`` or None.
     """
 
     gain: Any = setting(default=24.0, kw_only=False, doc="Control gain k.")
@@ -204,7 +206,7 @@ class Adaptive(Controller):
         default=8.0, kw_only=False, doc="lambda [1/s]: weight of the accumulated error."
     )
     epsilon: Any = setting(
-        default=0.05, kw_only=False, doc="epsilon [N·m]: width of the smooth sign."
+        default=0.05, kw_only=False, doc="epsilon [N·m]: width of the smoothed sign function."
     )
     form: Any = setting(
         default=("as-published", 0.005),
@@ -213,7 +215,7 @@ class Adaptive(Controller):
         doc='("as-published", time_constant [s]) or ("first-order", step [s], plant_gain [N·m/command unit]).',
     )
     smooth_sign: Any = setting(
-        default=None, convert=one_of("tanh", "clamp"), doc="tanh or clamp; None: tanh."
+        default=None, convert=one_of("tanh", "clamp"), doc="Smoothed sign function; None: tanh."
     )
     beta: Any = setting(
         default={"initial": 0.0, "gain": 0.002 / 8.0, "leakage": 0.01},
@@ -231,12 +233,12 @@ class Adaptive(Controller):
         default=({"initial": 0.0, "gain": 0.004 / 8.0, "leakage": 0.01},) * 2,
         convert=_estimators,
         core=False,
-        doc="One estimate for each regressor, 0 to 4 [N·m/unit of the regressor].",
+        doc="Estimate for each of 0 to 4 regressors [N·m/unit of the regressor].",
     )
     z_limit: Any = setting(
         default=None,
         core=False,
-        doc="Greatest magnitude of the accumulated error [N·m·s]; None: any.",
+        doc="Largest magnitude of the accumulated error [N·m·s]; None: no limit.",
     )
     frozen: Any = setting(
         default=None,
@@ -247,8 +249,8 @@ class Adaptive(Controller):
         default=None,
         convert=_missing,
         core=False,
-        doc="Response to a regressor that is not finite: hold the command, or drop its term. One "
-        "word for all regressors, or one for each; None: hold.",
+        doc="Response to a regressor that is not finite: hold or drop-regressor, as one text for "
+        "all regressors or one for each; None: hold.",
     )
 
     @classmethod

@@ -1,4 +1,4 @@
-"""Models for firmware: load, save, and run sample by sample."""
+"""Models for firmware: load, save and run sample by sample."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Model:
 
     @classmethod
     def load(cls, path: _Path) -> Model:
-        """Reads a ``.toml`` that :meth:`save` or `bowden identify --model-out` has written."""
+        """Reads a ``.toml`` from :meth:`save` or `bowden identify --model-out`."""
         name = os.fspath(path)
         try:
             with open(name, encoding="utf-8", newline="") as file:
@@ -44,7 +44,7 @@ class Model:
             raise Error(f"{name}: {error}", file=name) from None
 
     def save(self, path: _Path) -> None:
-        """Writes the model: ``.toml`` for tools, ``.rs`` or ``.postcard`` for firmware."""
+        """Writes the model as ``.toml`` for tools, or ``.rs`` or ``.postcard`` for firmware."""
         name = os.fspath(path)
         ending = os.path.splitext(name)[1]
         if ending == ".toml":
@@ -60,12 +60,12 @@ class Model:
 
     @property
     def toml(self) -> str:
-        """The text of the model's ``.toml``."""
+        """The model as the text of a ``.toml``."""
         return self._native.toml
 
     @property
     def name(self) -> str:
-        """The model's file, or its name."""
+        """The file of the model, or its name."""
         return self._name
 
     @property
@@ -75,11 +75,11 @@ class Model:
 
     @property
     def channels(self) -> list[str]:
-        """Names of the channels that the model reads besides the input."""
+        """Names of the channels that the model reads in addition to the input."""
         return self._native.channels
 
     def to_dict(self) -> dict[str, Any]:
-        """The whole content of the model's file."""
+        """The whole content of the model file."""
         found: dict[str, Any] = json.loads(self._native.json)
         return found
 
@@ -104,14 +104,14 @@ class Model:
         time_constant: Any = None,
         dtype: Any = np.float64,
     ) -> np.ndarray[Any, Any]:
-        """The output sample by sample, as firmware computes it, starting from a new state.
+        """Computes the output sample by sample as firmware does, starting from a new state.
 
-        ``input`` and each channel are arrays with shape (samples,) or (samples, 3). With (samples,)
-        the velocities and accelerations come from the core's causal filter `Rates` with
-        ``time_constant`` [s] (default: from the model's file). The three columns of (samples, 3)
-        are position, velocity and acceleration. Give either ``t`` in seconds, or as points in time
-        as in :func:`bowden.identify`, or ``dt``, which is one step [s] or a duration with a unit.
-        ``dtype`` is ``numpy.float64`` or ``numpy.float32``, the type in which the model runs.
+        ``input`` and each channel are arrays with shape (samples,) or (samples, 3). The three
+        columns are position, velocity and acceleration. For (samples,), the causal filter `Rates`
+        of the core computes velocity and acceleration with ``time_constant`` [s] (default: from the
+        model file). Give either ``t`` or ``dt``. ``t`` is in seconds, or points in time as in
+        :func:`bowden.identify`. ``dt`` is one sampling period [s], or a duration with a unit.
+        ``dtype`` is the type in which the model runs, ``numpy.float64`` or ``numpy.float32``.
         """
         given = dict(channels or {})
         missing = [name for name in self.channels if name not in given]

@@ -1,4 +1,4 @@
-"""Numbers, and times with a unit, in any type; anything else is refused by its name."""
+"""Numbers and times with a unit, of any type. Other values are errors."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SECOND = np.timedelta64(1, "s")
 
 
 def numbers(name: str, value: Any, allowed: str = "numbers are allowed") -> Floats:
-    """An array of numbers, of any shape, without a unit; NaN is one."""
+    """An array of numbers without a unit, of any shape. NaN is allowed."""
     array = _array(value)
     if array is None or array.dtype.kind not in "fiu":
         raise Error(f"{name}: {_described(value, array)}; {allowed}")
@@ -27,10 +27,10 @@ def numbers(name: str, value: Any, allowed: str = "numbers are allowed") -> Floa
 
 
 def seconds(name: str, value: Any) -> Floats:
-    """An array of seconds: numbers are seconds, and durations have their own unit.
+    """An array of seconds, from numbers in seconds or from durations with a unit.
 
-    Only this function knows units of time in arguments; for columns of a record it is
-    ``_columns``. A missing duration (``NaT``) becomes NaN. A point in time is not a duration.
+    A missing duration (``NaT``) becomes NaN. A point in time is not a duration. ``_columns`` does
+    the same for the columns of a record.
     """
     array = _array(value)
     if array is not None and array.dtype.kind == "O" and array.size:
@@ -44,7 +44,7 @@ def seconds(name: str, value: Any) -> Floats:
 
 
 def number(name: str, value: Any, allowed: str = "a number is allowed") -> float:
-    """One number; NaN is one."""
+    """One number. NaN is allowed."""
     if isinstance(value, float):
         return float(value)
     return _one(name, value, numbers(name, value, allowed), allowed)
@@ -64,7 +64,7 @@ def finite(name: str, value: float, allowed: str = "finite numbers are allowed")
 
 
 def positive_duration(name: str, value: Any) -> float:
-    """One time above zero, in seconds."""
+    """One positive time in seconds."""
     found = duration(name, value)
     if not 0.0 < found < np.inf:
         raise Error(f"{name}={value!r}: a positive number of seconds is allowed")
@@ -78,7 +78,7 @@ def flag(name: str, value: Any) -> bool:
 
 
 def flags(name: str, value: Any) -> Floats:
-    """An array of True and False, as ones and zeros."""
+    """An array of True and False as ones and zeros."""
     array = _array(value)
     if array is None or array.dtype.kind != "b":
         raise Error(f"{name}: {_described(value, array)}; True or False is allowed")
@@ -86,7 +86,7 @@ def flags(name: str, value: Any) -> Floats:
 
 
 def whole(name: str, value: Any, least: int, most: int, allowed: str) -> int:
-    """A number that counts something."""
+    """A whole number within a range."""
     try:
         count = operator.index(value)
     except TypeError:
@@ -111,7 +111,7 @@ def spread(name: str, values: Floats, samples: int, lanes: int) -> Floats:
 
 
 def samples_of(*signals: Any) -> int:
-    """The number of samples of the longest of these; one if none is an array."""
+    """The number of samples of the longest array; one without an array."""
     arrays = [own for own in map(_array, signals) if own is not None and own.ndim]
     return max((own.shape[0] for own in arrays), default=1)
 
@@ -146,7 +146,7 @@ def _of_objects(array: np.ndarray[Any, Any]) -> Optional[np.ndarray[Any, Any]]:
 
 
 def _described(value: Any, array: Optional[np.ndarray[Any, Any]]) -> str:
-    """The given value, in a few words."""
+    """A short description of the value."""
     if value is None:
         return "None"
     if array is None or array.dtype.kind in "OSU" or isinstance(value, bool):

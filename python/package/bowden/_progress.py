@@ -7,12 +7,12 @@ import importlib.util
 import sys
 from typing import Any, Callable, Optional
 
-#: Called with the share that is done (0 to 1, ``None`` if unknown) and the current task.
+#: Called with the completed fraction (0 to 1, ``None`` if unknown) and the current task.
 Told = Callable[[Optional[float], str], object]
 
 
 class _Bar:
-    """A tqdm bar or a similar one, moved to shares of its total."""
+    """A tqdm bar or a similar one, moved to a fraction of its total."""
 
     def __init__(self, bar: Any, own: bool) -> None:
         self.bar, self.own = bar, own

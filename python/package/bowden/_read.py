@@ -20,7 +20,7 @@ from ._columns import (
 from ._error import Error
 from ._numbers import duration, number, whole
 
-#: Columns that are signals by their names alone.
+#: Names that identify a column as a signal.
 SIGNALS = frozenset({"tau_i", "tau_o", "x", "f", "phi_p", "phi_d", "temperature", "load"})
 
 #: The values that are allowed for a frequency.
@@ -31,7 +31,7 @@ Channels = Mapping[str, Any]
 
 
 class Reading:
-    """How columns are read, once for all records of a call."""
+    """How the columns of all records of a call are read."""
 
     def __init__(
         self,
@@ -81,7 +81,7 @@ class Reading:
         }
 
     def of_ends(self, ends: Mapping[str, Any]) -> _bowden.Record:
-        """A record from arrays that were given by name."""
+        """A record from named arrays."""
         arrays = [(name, array) for name, array in ends.items() if array is not None]
         arrays += [(n, a) for n, a in self.channels.items() if not isinstance(a, str)]
         check_units(self.units, [name for name, _ in arrays])
@@ -92,7 +92,7 @@ class Reading:
         return _bowden.record_of_columns(columns, self.label or "(arrays)", self.options)
 
     def of(self, source: Any, number: Optional[int] = None) -> _bowden.Record:
-        """A record from one source; ``number`` counts several sources from 1."""
+        """A record from one source. ``number`` is the number of the source, from 1."""
         if isinstance(source, _bowden.Record):
             self._no_names("a bowden.Record", "it has its own")
             return source
@@ -143,7 +143,7 @@ class Reading:
         return _bowden.agree([self.of(s, k + 1) for k, s in enumerate(sources)])
 
     def _no_names(self, source: str, why: str) -> None:
-        """Refuses a label or units for this source."""
+        """Rejects a label or units for this source."""
         for option, given in (("label", self.label), ("units", self.units or None)):
             if given is not None:
                 raise Error(
@@ -178,9 +178,9 @@ def read(
     units: Optional[Mapping[str, str]] = None,
     label: Optional[str] = None,
 ) -> _bowden.Record:
-    """Reads one record: a file (CSV, JSON, .xlsx, .mat v5 and v7.3, Parquet, .npz, .npy, each also in gzip) or a frame.
+    """Reads one record from a file or a frame; the formats are those of :func:`identify`.
 
-    The options are those of `bowden identify`; see :func:`identify`.
+    The options are those of `bowden identify`.
     """
     reading = Reading(
         mode=mode,

@@ -22,26 +22,26 @@ _RESULT = ("gain", "period", "amplitude", "duty")
 
 
 class RelayPhase(Code):
-    """The phase of a :class:`Relay`; a number above ``DONE`` is a failure."""
+    """Phase of a :class:`Relay`. A number above ``DONE`` is a failure."""
 
     RUNNING = 0
     #: A bad sample: the last command is held.
     HELD = 1
-    #: The experiment has succeeded: the relay applies the centre.
+    #: The experiment has succeeded. The command is the centre.
     DONE = 2
     #: Too many bad samples. After a failure the safe command is applied.
     BAD_SAMPLES = 3
-    #: The output was further from the reference than ``most_deviation``.
+    #: The distance of the output from the reference exceeded ``most_deviation``.
     OUTPUT_OUT_OF_RANGE = 4
-    #: ``longest_time`` has passed without a complete cycle.
+    #: There was no complete cycle within ``longest_time``.
     NO_OSCILLATION = 5
-    #: ``longest_time`` has passed, and the cycles did not agree with each other.
+    #: The cycles did not agree within ``longest_time``.
     TIME_OUT = 6
     OTHER = 7
 
 
 class RelayResult(NamedTuple):
-    """A command; for many samples or lanes each field is an array."""
+    """Result of a step. For many samples or lanes each field is an array."""
 
     #: The command for the drive [command unit].
     command: Any
@@ -52,7 +52,7 @@ class RelayResult(NamedTuple):
 
 
 class Relay(Block):
-    """A relay experiment: it makes the loop oscillate and measures ultimate gain and period.
+    """A relay experiment: the loop oscillates, and the relay measures ultimate gain and period.
 
     Start with the output near the reference. Step the relay instead of the controller until its
     phase is ``DONE`` or a failure. After ``DONE``, :meth:`pi` returns the gains. After a failure,
@@ -60,37 +60,37 @@ class Relay(Block):
     """
 
     reference: Any = setting(doc="Reference about which the output oscillates [output unit].")
-    centre: Any = setting(doc="Mean of the two levels of the command [command unit].")
+    centre: Any = setting(doc="Mean of the two command levels [command unit].")
     amplitude: Any = setting(
-        doc="Distance from the centre to each level [command unit], with the sign of the plant's "
+        doc="Distance from the centre to each level [command unit], with the sign of the plant "
         "gain."
     )
     hysteresis: Any = setting(
-        doc="Hysteresis, zero or above: at least the peak of the noise [output unit]."
+        doc="Hysteresis of the relay [output unit], at least the peak of the noise."
     )
     most_deviation: Any = setting(
-        doc="Greatest distance of the output from the reference, above hysteresis [output unit]."
+        doc="Largest distance of the output from the reference [output unit], above hysteresis."
     )
     cycles: Any = setting(
         default=4,
         convert=count(_MOST_COUNT),
-        doc="Number of successive cycles in the average, at least 2.",
+        doc="Number of consecutive cycles in the average, at least 2.",
     )
     agreement: Any = setting(
         default=0.05,
-        doc="Largest difference between these cycles, as a share between 0 and 1.",
+        doc="Largest relative deviation of a cycle from the mean of earlier ones, 0 to 1.",
     )
     longest_time: Any = setting(
         convert=duration, doc="Maximum duration of the experiment [s]."
     )
     longest_dt: Any = setting(convert=duration, doc="Longest dt of a good sample [s].")
     limits: Any = setting(
-        convert=limits_of, core=False, doc="(low, high) of the command [command unit]."
+        convert=limits_of, core=False, doc="Range (low, high) of the command [command unit]."
     )
     fallback: Any = setting(
         convert=pair("after", "command", count(_MOST_COUNT)),
         core=False,
-        doc="(bad samples in a row, safe command [command unit]).",
+        doc="(number of consecutive bad samples, safe command [command unit]).",
     )
 
     @classmethod
@@ -111,24 +111,24 @@ class Relay(Block):
         }
 
     def step(self, dt: Any, measured: Any) -> RelayResult:
-        """Processes a sample: ``dt`` since the last one [s] or a duration; the measured output."""
+        """Processes one output sample, ``dt`` [s] (or a duration) after the last one."""
         (command, *_), phase, fault = self._one(dt, "measured", measured)
         if self._alone:
             return RelayResult(command, RelayPhase(phase), Fault(fault))
         return RelayResult(command, phase, fault)
 
     def run(self, dt: Any, measured: Any) -> RelayResult:
-        """Many samples: (samples,) each, or (samples, lanes); ``dt`` one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
         (command, *_), phase, fault = self._many(dt, "measured", measured)
         return RelayResult(command, phase, fault)
 
     def acknowledge(self) -> None:
-        """Acknowledges a failure: the next good sample restarts the experiment."""
+        """Acknowledges a failure. The next good sample restarts the experiment."""
         self._native.acknowledge()
 
     @property
     def ultimate(self) -> Optional[Fields]:
-        """Gain, period [s], amplitude [output unit] and duty of the cycles; None before the result.
+        """Gain, period [s], amplitude [output unit] and duty; None without a result.
 
         With several lanes each field is an array, with NaN for a lane without a result.
         """
@@ -141,8 +141,8 @@ class Relay(Block):
     def pi(self, rule: str = "tyreus-luyben") -> Fields:
         """k_p and k_i of a PI: ``bowden.PI(**relay.pi())``.
 
-        The rule is "tyreus-luyben", which is conservative, or "ziegler-nichols", which is fast. The
-        method raises :class:`bowden.Error` if there is no result.
+        ``rule`` is "tyreus-luyben" (conservative) or "ziegler-nichols" (fast). Without a result the
+        method raises :class:`bowden.Error`.
         """
         if rule not in _RULES:
             words = ", ".join(f'"{own}"' for own in _RULES)

@@ -1,4 +1,4 @@
-"""The result of a call: the fields of the JSON, figures, models and the trace."""
+"""The result of a call: fields of the JSON, figures, models and trace."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class _Found(Fields):
 
     @property
     def json(self) -> str:
-        """The program's ``--json`` output for the same record, byte for byte."""
+        """The same bytes as the ``--json`` output of the program for this record."""
         return self._json
 
     def _drawn(self) -> Any:
@@ -51,8 +51,8 @@ class _Found(Fields):
     def trace(self, frame: Optional[str] = None) -> Any:
         """The signals over time, as the fit uses them.
 
-        ``frame`` is ``"pandas"``, ``"polars"`` or ``"dict"`` (of arrays); default: the first of
-        these that is installed.
+        ``frame`` is ``"pandas"``, ``"polars"`` or ``"dict"`` (of arrays); default: the first one
+        that is installed.
         """
         columns: dict[str, Any] = dict(self._drawn().trace())
         if frame in (None, "pandas"):
@@ -77,7 +77,7 @@ class _Found(Fields):
 
     @property
     def trace_csv(self) -> str:
-        """The trace as the program writes it with ``--trace``."""
+        """The trace as CSV, as the program writes it with ``--trace``."""
         text: str = self._drawn().trace_csv
         return text
 
@@ -87,10 +87,9 @@ class _Found(Fields):
         return svg
 
     def page(self) -> str:
-        """The whole report as one HTML page that loads nothing.
+        """The whole report as one self-contained HTML page.
 
-        The SHA-256 of each file is that of the data that was read. The files may have been deleted
-        since.
+        The SHA-256 of each file is that of the data that was read.
         """
         page: str = self._drawn().page(self._command)
         return page
@@ -108,7 +107,7 @@ class _Found(Fields):
         return ""
 
     def _repr_html_(self) -> str:
-        """Verdict, errors and two figures, with the whole page folded below them."""
+        """The verdict, the errors, two figures and the folded page."""
         verdict = str(self["verdict"])
         colour = _HEX[_COLOURS.get(verdict, "mid")]
         head = (
@@ -138,10 +137,10 @@ class _Found(Fields):
 
 
 class Report(_Found):
-    """The result of :func:`bowden.identify`; fields as in schema ``bowden.identify/1``.
+    """The result of :func:`bowden.identify`, with the fields of schema ``bowden.identify/1``.
 
-    Each key of the JSON is an attribute (``report.final.nrmse.held_out``); the text itself is
-    :attr:`json`.
+    Each key of the JSON is an attribute (``report.final.nrmse.held_out``). :attr:`json` is the text
+    itself.
     """
 
     __slots__ = ("_models", "_no_model", "_vectors")
@@ -181,24 +180,24 @@ class Report(_Found):
 
     @property
     def model(self) -> Model:
-        """The model for firmware; with ``per_file="gains"`` that of the first file."""
+        """The model for firmware; with ``per_file="gains"``, the model of the first file."""
         if not self._models:
             raise Error(f"no model can be exported: {self._no_model}")
         return self._models[0]
 
     @property
     def models(self) -> list[Model]:
-        """The models for firmware: one, or with ``per_file="gains"`` one for each file."""
+        """The models for firmware: one, or one for each file with ``per_file="gains"``."""
         return list(self._models)
 
     @property
     def vectors(self) -> list[str]:
-        """The test vector of each model as CSV, as next to the program's ``--model-out``."""
+        """The test vector of each model as CSV, as ``--model-out`` of the program writes it."""
         return list(self._vectors)
 
     @property
     def names(self) -> list[str]:
-        """The effects that were found and delivered, in the order in which they were found."""
+        """The effects in the final model, in the order in which they were found."""
         return [str(found.effect) for found in self.terms]
 
     def _numbers(self) -> str:
@@ -218,7 +217,7 @@ class Report(_Found):
 
 
 class CheckReport(_Found):
-    """The result of :func:`bowden.validate`; fields as in schema ``bowden.validate/1``."""
+    """The result of :func:`bowden.validate`, with the fields of ``bowden.validate/1``."""
 
     __slots__ = ()
 

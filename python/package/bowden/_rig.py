@@ -1,4 +1,4 @@
-"""The simulated rig, one or many side by side."""
+"""The simulated rig."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ._status import Command, command_of
 
 
 def _seeds(name: str, value: Any) -> Any:
-    """One seed, or a list of one for each lane."""
+    """One seed, or a list with one seed for each lane."""
     allowed = "whole numbers from 0 to 2**64 - 1 are allowed"
 
     def one(seed: Any) -> int:
@@ -55,16 +55,16 @@ def _drift(name: str, value: Any) -> dict[str, Any]:
 
 
 class Rig(Lanes):
-    """The simulated rig: motor, cable, joint with a spring, and sensors; one or many.
+    """The simulated rig: motor, cable, joint with a spring, and sensors.
 
-    If a setting is an array, there is one rig for each value, side by side. The defaults are the
-    settings of the reference rig.
+    If a setting is an array, there is one rig (lane) for each value. The defaults are the settings
+    of the reference rig.
     """
 
     _INSTEAD = "make another Rig with {}=…"
 
     drive_gain: Any = setting(
-        default=None, doc="Torque of the motor per command unit [N·m/command unit]."
+        default=None, doc="Motor torque per command unit [N·m/command unit]."
     )
     drive_lag: Any = setting(
         default=None, convert=duration, doc="Time constant of the current loop [s]."
@@ -80,10 +80,10 @@ class Rig(Lanes):
     joint_inertia: Any = setting(default=None, doc="Inertia of the distal pulley [kg·m²].")
     joint_damping: Any = setting(default=None, doc="Damping of the joint [N·m·s/rad].")
     load_stiffness: Any = setting(
-        default=None, doc="Stiffness of the springs that the joint works against [N·m/rad]."
+        default=None, doc="Stiffness of the load springs [N·m/rad]."
     )
     b: Any = setting(default=None, doc="Torque ratio B.")
-    kappa_eta: Any = setting(default=None, doc="Torque of the hysteresis at saturation [N·m].")
+    kappa_eta: Any = setting(default=None, doc="Hysteresis torque at saturation [N·m].")
     t0: Any = setting(default=None, doc="Preload T0 [N·m].")
     rho: Any = setting(default=None, doc="Bouc-Wen rho [1/(N·m)].")
     sigma: Any = setting(default=None, doc="Bouc-Wen sigma.")
@@ -91,37 +91,37 @@ class Rig(Lanes):
     sensor_lag: Any = setting(
         default=None, convert=duration, doc="Time constant of both torque sensors [s]."
     )
-    noise: Any = setting(default=None, doc="White noise of the distal torque [N·m rms].")
-    input_noise: Any = setting(default=None, doc="White noise of the proximal torque [N·m rms].")
+    noise: Any = setting(default=None, doc="White noise on the distal torque [N·m rms].")
+    input_noise: Any = setting(default=None, doc="White noise on the proximal torque [N·m rms].")
     output_range: Any = setting(
-        default=None, doc="Range of the distal converter, plus and minus [N·m]."
+        default=None, doc="Range of the distal A/D converter, plus and minus [N·m]."
     )
     input_range: Any = setting(
-        default=None, doc="Range of the proximal converter, plus and minus [N·m]."
+        default=None, doc="Range of the proximal A/D converter, plus and minus [N·m]."
     )
-    converter_counts: Any = setting(default=None, doc="Counts of a converter over its whole range.")
-    encoder_counts: Any = setting(default=None, doc="Counts of an encoder per turn.")
+    converter_counts: Any = setting(default=None, doc="Counts of an A/D converter over its range.")
+    encoder_counts: Any = setting(default=None, doc="Counts of each encoder per turn.")
     velocity_lag: Any = setting(
         default=None,
         convert=duration,
-        doc="Time constant of the filter of the encoder differences [s].",
+        doc="Time constant of the filtered encoder velocity [s].",
     )
     delay: Any = setting(
         default=None, convert=count(255), doc="Delay from a command to the drive [samples]."
     )
     sub_step: Any = setting(
-        default=None, convert=duration, doc="Longest sub-step of the integration [s]."
+        default=None, convert=duration, doc="Longest integration step [s]."
     )
     drift: Any = setting(
         default=None,
         convert=_drift,
-        doc="Motion of the conduit: time [s], b, kappa_eta, t0; None: no motion.",
+        doc="Drift due to motion of the conduit: time [s], b, kappa_eta, t0; None: no drift.",
     )
     undeclared: Any = setting(
         default=(),
         convert=_undeclared,
         core=False,
-        doc="Effects unknown to every controller: mappings of effect, source (input, proximal or "
+        doc="Effects that no controller knows: mappings of effect, source (input, proximal or "
         "distal), gain and, if the effect has them, shapes.",
     )
     seed: Any = setting(
@@ -159,7 +159,7 @@ class Rig(Lanes):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting by name, as the constructor accepts it: ``Rig(**rig.settings)``."""
+        """The settings by name, as the constructor accepts them: ``Rig(**rig.settings)``."""
         found = super().settings
         terms = found["undeclared"] or ()
         shown = [
@@ -186,16 +186,16 @@ class Rig(Lanes):
         return self._named(self._native.sample(), 0)
 
     def step(self, command: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:
-        """One step of ``dt`` [s], or of a duration with a unit; returns the sample after the step.
+        """Advances by ``dt`` [s], or by a duration with a unit, and returns the sample.
 
-        ``command`` is in [command unit], or it is the result of a controller's step; ``load`` is in
+        ``command`` is in [command unit], or it is the result of a controller step. ``load`` is in
         [N·m]. With several lanes each argument has one value for each lane.
         """
         time = np.array([_numbers.duration("dt", dt)])
         return self._named(self._native.run(*self._signals(command, load, 1), time), 0)
 
     def run(self, commands: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:
-        """Many steps: signals with shape (samples,), or (samples, lanes) for several lanes.
+        """Runs many steps. The signals have the shape (samples,) or (samples, lanes).
 
         ``dt`` is one time or (samples,), in seconds or as durations with a unit.
         """
@@ -220,13 +220,13 @@ class Rig(Lanes):
         feed_forward: Any = 0.0,
         phase: Any = None,
     ) -> dict[str, Any]:
-        """The closed loop: each controller on its rig, all with one reference [N·m].
+        """Runs the closed loop of each controller and its rig with one reference [N·m].
 
         ``dt`` is as in :meth:`run`. ``feed_forward`` [command unit] is added to each command.
-        ``phase``, from 0 to 1, is the position of a sample in its cycle, for learning. Each of
-        these is a number or (samples,).
+        ``phase``, from 0 to 1, is the position of a sample in its cycle, for iterative learning.
+        Each of these arguments is a number or (samples,).
 
-        Returns the rig's signals before each command, ``command``, ``status`` and ``fault``
+        Returns the signals of the rig before each command, ``command``, ``status`` and ``fault``
         (numbers of :class:`Status` and :class:`Fault`), and ``error`` = tau_o - reference. The
         regressors of the adaptive law are velocity and acceleration of the proximal pulley.
         """
@@ -248,9 +248,9 @@ class Rig(Lanes):
 
 
 def paper_reference(t: Any, ramp: Any = 0.0) -> _numbers.Floats:
-    """The reference [N·m] of Nguyen et al. (2018), section 4.2, at times [s].
+    """The reference [N·m] of Nguyen et al. (2018), section 4.2, at the times ``t`` [s].
 
-    It rises smoothly within ``ramp`` [s].
+    The reference rises smoothly within ``ramp`` [s].
     """
     rise = _numbers.finite("ramp", _numbers.duration("ramp", ramp))
     times = np.ascontiguousarray(_numbers.seconds("t", t))

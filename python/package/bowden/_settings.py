@@ -1,8 +1,8 @@
 """Settings: one line defines a keyword, an attribute, its documentation and its checks.
 
-A class lists its settings as ``name: Any = setting(…)``. The native half stores the values in
-the core's own form, and a read returns the core's value. A setting cannot be assigned, because
-the law would not notice the change.
+A class lists its settings as ``name: Any = setting(…)``. The native module stores the values in
+the form of the core, and a read returns the value of the core. A setting cannot be assigned,
+because the law would not notice the change.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ else:
         return lambda cls: cls
 
 
-#: No limit: every float.
+#: The largest float, which means no limit.
 GREATEST = float(np.finfo(np.float64).max)
 
 Convert = Callable[[str, Any], Any]
@@ -36,7 +36,7 @@ def real(name: str, value: Any) -> Any:
 
 
 def duration(name: str, value: Any) -> Any:
-    """The same in seconds."""
+    """A finite time in seconds, or one for each lane."""
     return _each(name, _numbers.seconds(name, value))
 
 
@@ -74,7 +74,7 @@ def one_of(*names: str) -> Convert:
 
 
 def pair(low: str, high: str, first: Convert = real) -> Convert:
-    """Two numbers with these names."""
+    """A pair of numbers with these names."""
 
     def convert(name: str, value: Any) -> dict[str, Any]:
         if isinstance(value, (str, Mapping)) or not isinstance(value, Sequence) or len(value) != 2:
@@ -118,8 +118,8 @@ def setting(
     kw_only: bool = True,
     core: bool = True,
 ) -> Any:
-    """A setting. A default of ``None`` means the core's default; without a default it is required.
-    ``core=False`` is for a setting that the core stores in another form."""
+    """A setting. A default of ``None`` means the default of the core. Without a default the setting
+    is required. ``core=False`` is for a setting that the core stores in another form."""
     return Setting(default, doc, convert, kw_only, core)
 
 
@@ -128,10 +128,10 @@ _S = TypeVar("_S", bound="Settings")
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(setting,))
 class Settings:
-    """An object made of settings, which does not change afterwards."""
+    """An immutable object made of settings."""
 
     _SETTINGS: ClassVar[dict[str, Setting]] = {}
-    #: What to do instead of an assignment, with the setting's name.
+    #: What to do instead of an assignment, with the name of the setting.
     _INSTEAD: ClassVar[str] = "make another object with {}=…"
 
     def __init_subclass__(cls) -> None:
@@ -160,7 +160,7 @@ class Settings:
 
     @classmethod
     def _given(cls, args: Sequence[Any], given: Mapping[str, Any]) -> dict[str, Any]:
-        """Every setting as it was given, by name."""
+        """The given settings by name."""
         cls._check_names(given)
         places = [name for name, own in cls._SETTINGS.items() if not own.kw_only]
         if len(args) > len(places):
@@ -199,7 +199,7 @@ class Settings:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting by name, as the constructor accepts it: ``type(it)(**it.settings)``."""
+        """The settings by name, as the constructor accepts them: ``type(it)(**it.settings)``."""
         return dict(self.__dict__["_settings"])
 
     if not TYPE_CHECKING:  # Without it a type checker refuses an assignment by itself.

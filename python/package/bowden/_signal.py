@@ -1,4 +1,4 @@
-"""Signal conditioning that rejects bad samples, for one signal or many side by side."""
+"""Signal conditioning that rejects bad samples."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class RatesStatus(Code):
     GOOD = 0
     #: A good sample, but the rates started from zero less than five time constants ago.
     SETTLING = 1
-    #: A good position after an unknown time: the rates are held.
+    #: A good position after an unknown time. The rates are held.
     RESUMED = 2
     #: A bad sample: the last good motion is held.
     HELD = 3
@@ -30,16 +30,16 @@ class EdgeStatus(Code):
     """Validity of a velocity from :class:`EdgeVelocity`."""
 
     GOOD = 0
-    #: Two counts and the time between them are not yet known.
+    #: Fewer than two counts are known, or the time between them is unknown.
     SETTLING = 1
-    #: No count for longer than ``longest_gap``: the velocity is zero.
+    #: No count for longer than ``longest_gap``, so the velocity is zero.
     STOPPED = 2
     #: A bad sample: the last velocity is held.
     HELD = 3
 
 
 class Implausible(Code):
-    """Why a sample is implausible; ``NONE`` is false."""
+    """Reason why a sample is implausible. ``NONE`` is false."""
 
     NONE = 0
     NOT_FINITE = 1
@@ -50,7 +50,7 @@ class Implausible(Code):
 
 
 class RatesResult(NamedTuple):
-    """A motion; for many samples or lanes each field is an array."""
+    """A motion. For many samples or lanes each field is an array."""
 
     position: Any
     velocity: Any
@@ -62,7 +62,7 @@ class RatesResult(NamedTuple):
 
 
 class EdgeVelocityResult(NamedTuple):
-    """A velocity; for many samples or lanes each field is an array."""
+    """A velocity. For many samples or lanes each field is an array."""
 
     #: Velocity [channel unit/s]; zero until two counts are known.
     velocity: Any
@@ -73,9 +73,9 @@ class EdgeVelocityResult(NamedTuple):
 
 
 class PlausibleResult(NamedTuple):
-    """A sample after the check; for many samples or lanes each field is an array."""
+    """A checked sample. For many samples or lanes each field is an array."""
 
-    #: The sample if it is plausible, otherwise NaN.
+    #: The sample, or NaN if it is implausible.
     value: Any
     #: An :class:`Implausible`, or an array of its numbers.
     fault: Any
@@ -136,22 +136,22 @@ class Rates(Block):
     time_constant: Any = setting(
         convert=duration,
         kw_only=False,
-        doc="tau [s]: the delay of the velocity, and half the delay of the acceleration.",
+        doc="tau [s], the delay of the velocity and half the delay of the acceleration.",
     )
     longest_gap: Any = setting(
         default=None,
         convert=duration,
         core=False,
-        doc="Longest gap between two good samples that is bridged [s]; None: 10 time constants.",
+        doc="Longest gap between good samples that is bridged [s]; None: 10 time constants.",
     )
     period: Any = setting(
         default=None,
-        doc="Period of positions that wrap around [channel unit]; None: they do not wrap.",
+        doc="Period of a position that wraps [channel unit]; None: it does not wrap.",
     )
 
     @classmethod
     def for_cutoff(cls, cutoff: Any, **settings: Any) -> Rates:
-        """Rates for a model that was fitted with this cut-off [Hz]: tau = 1/(2·pi·2.5·cutoff)."""
+        """Rates for a model fitted with this cut-off [Hz]: tau = 1/(2·pi·2.5·cutoff)."""
         corner = np.asarray(real("cutoff", cutoff)) * (2.0 * np.pi * 2.5)
         if not (corner > 0.0).all():
             raise Error(f"cutoff={cutoff}: a frequency above zero is allowed")
@@ -169,148 +169,148 @@ class Rates(Block):
         return {**super()._from_core(core), "longest_gap": core["block"]["longest_gap"]}
 
     def step(self, dt: Any, position: Any) -> RatesResult:
-        """Processes one ``position``, ``dt`` [s] (or a duration with a unit) after the last one."""
+        """Processes one ``position``, ``dt`` [s] (or a duration) after the last one."""
         (x, v, a), status, fault = self._one(dt, "position", position)
         if self._alone:
             return RatesResult(x, v, a, RatesStatus(status), Fault(fault))
         return RatesResult(x, v, a, status, fault)
 
     def run(self, dt: Any, position: Any) -> RatesResult:
-        """Many samples: (samples,) each, or (samples, lanes); ``dt`` one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
         (x, v, a), status, fault = self._many(dt, "position", position)
         return RatesResult(x, v, a, status, fault)
 
 
 class EdgeVelocity(Block):
-    """Velocity of a slow encoder, from the time between its counts (period measurement).
+    """Velocity of a slow encoder from the time between its counts (period measurement).
 
     At a constant speed of f counts per second the relative error is at most f·dt/(1 − f·dt) while
-    f·dt < 1. A speed below ``count/longest_gap`` counts as a stop.
+    f·dt < 1. A speed below ``count/longest_gap`` reads as zero.
     """
 
     count: Any = setting(
-        kw_only=False, doc="Smallest change of the position, above zero [channel unit]."
+        kw_only=False, doc="Size of one count [channel unit], positive."
     )
     time_constant: Any = setting(
-        convert=duration, kw_only=False, doc="Counts that come faster than this are averaged [s]."
+        convert=duration, kw_only=False, doc="Averaging time for counts at shorter intervals [s]."
     )
     longest_gap: Any = setting(
-        convert=duration, kw_only=False, doc="After this time without a count, the axis rests [s]."
+        convert=duration, kw_only=False, doc="Time without a count that means a stop [s]."
     )
     period: Any = setting(
         default=None,
-        doc="Period of positions that wrap around [channel unit]; None: they do not wrap.",
+        doc="Period of a position that wraps [channel unit]; None: it does not wrap.",
     )
 
     def step(self, dt: Any, position: Any) -> EdgeVelocityResult:
-        """Processes one ``position``, ``dt`` [s] (or a duration with a unit) after the last one."""
+        """Processes one ``position``, ``dt`` [s] (or a duration) after the last one."""
         (velocity, *_), status, fault = self._one(dt, "position", position)
         if self._alone:
             return EdgeVelocityResult(velocity, EdgeStatus(status), Fault(fault))
         return EdgeVelocityResult(velocity, status, fault)
 
     def run(self, dt: Any, position: Any) -> EdgeVelocityResult:
-        """Many samples: (samples,) each, or (samples, lanes); ``dt`` one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
         (velocity, *_), status, fault = self._many(dt, "position", position)
         return EdgeVelocityResult(velocity, status, fault)
 
 
 class _Filter(Block):
-    """A signal in, a signal out."""
+    """A block with one input and one output signal."""
 
     def step(self, dt: Any, sample: Any) -> Any:
-        """The output for a sample taken ``dt`` [s] (or a duration with a unit) after the last one.
+        """Processes one sample, ``dt`` [s] (or a duration) after the last one.
 
         A bad sample (NaN, or a ``dt`` that is not positive) leaves the output unchanged.
         """
         return self._one(dt, "sample", sample)[0][0]
 
     def run(self, dt: Any, sample: Any) -> Any:
-        """Many samples: (samples,), or (samples, lanes); ``dt`` one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
         return self._many(dt, "sample", sample)[0][0]
 
 
 class LowPass(_Filter):
-    """First-order low-pass; the first good sample starts it at rest."""
+    """First-order low-pass filter. The first good sample starts the filter at rest."""
 
     time_constant: Any = setting(
-        convert=duration, kw_only=False, doc="tau [s]: the corner is 1/(2·pi·tau) [Hz]."
+        convert=duration, kw_only=False, doc="tau [s]; the corner frequency is 1/(2·pi·tau) [Hz]."
     )
 
 
 class Biquad(_Filter):
-    """Second-order low-pass or notch; the first good sample starts it at rest."""
+    """Second-order low-pass or notch. The first good sample starts the filter at rest."""
 
     response: Any = setting(
-        convert=one_of("low-pass", "notch"), kw_only=False, doc="low-pass or notch."
+        convert=one_of("low-pass", "notch"), kw_only=False, doc="Filter type, low-pass or notch."
     )
     frequency: Any = setting(
         kw_only=False,
-        doc="Corner of a low-pass, centre of a notch [Hz]; below half the sample rate.",
+        doc="Corner of a low-pass or centre of a notch [Hz], below half the sampling rate.",
     )
     q: Any = setting(
         kw_only=False,
-        doc="Quality factor: 1/sqrt(2) is Butterworth low-pass; a notch is frequency/q [Hz] wide.",
+        doc="Quality factor: 1/sqrt(2) for a Butterworth low-pass; notch width = frequency/q [Hz].",
     )
     sample_time: Any = setting(
-        convert=duration, kw_only=False, doc="Sample time of the design [s]."
+        convert=duration, kw_only=False, doc="Nominal sampling period [s]."
     )
 
 
 class Ramp(Block):
-    """A reference that a loop can follow: a rate limit, then a lag that rounds the corners."""
+    """Shapes a reference with a rate limit and a lag that rounds the corners."""
 
-    rate: Any = setting(kw_only=False, doc="Rate limit, above zero [signal unit/s].")
+    rate: Any = setting(kw_only=False, doc="Rate limit [signal unit/s], positive.")
     time_constant: Any = setting(
-        default=0.0, kw_only=False, convert=duration, doc="Time constant of the lag [s]; 0: none."
+        default=0.0, kw_only=False, convert=duration, doc="Time constant of the lag [s]; 0: no lag."
     )
     longest_dt: Any = setting(
         default=None, convert=duration, doc="Longest dt that moves the reference [s]; None: any."
     )
-    start: Any = setting(default=0.0, core=False, doc="Start of the reference [signal unit].")
+    start: Any = setting(default=0.0, core=False, doc="Initial reference [signal unit].")
 
     def step(self, dt: Any, wanted: Any) -> Any:
-        """The reference on its path to ``wanted``, ``dt`` [s] (or a duration with a unit) later."""
+        """Moves the reference towards ``wanted`` for the time ``dt`` [s] or a duration."""
         return self._one(dt, "wanted", wanted)[0][0]
 
     def run(self, dt: Any, wanted: Any) -> Any:
-        """Many samples: (samples,), or (samples, lanes); ``dt`` one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
         return self._many(dt, "wanted", wanted)[0][0]
 
 
 class Plausible(Block):
-    """Plausibility check of a finite reading: its range, its rate, and whether it is stuck.
+    """Plausibility check of sensor samples: range, rate and stuck value.
 
-    Use one before each input of a controller. An implausible sample becomes NaN, and the controller
-    then holds its command.
+    Check each input of a controller. An implausible sample becomes NaN, and the controller then
+    holds its command.
     """
 
-    low: Any = setting(kw_only=False, doc="Least plausible value [signal unit].")
-    high: Any = setting(kw_only=False, doc="Greatest plausible value [signal unit].")
-    rate: Any = setting(default=None, doc="Greatest rate of change [signal unit/s]; None: any.")
+    low: Any = setting(kw_only=False, doc="Lowest plausible value [signal unit].")
+    high: Any = setting(kw_only=False, doc="Highest plausible value [signal unit].")
+    rate: Any = setting(default=None, doc="Largest rate of change [signal unit/s]; None: no limit.")
     stuck_after: Any = setting(
         default=None,
         convert=count(2**32 - 1),
-        doc="Number of equal values in a row, while the machine moves, that mean a stuck sensor; "
-        "None: 0, never.",
+        doc="Number of consecutive equal samples, while the machine moves, that indicate a stuck "
+        "sensor; 0 or None: no check.",
     )
     sample_period: Any = setting(
         default=None,
         convert=duration,
-        doc="Longest time from one reading of the sensor to the next [s], with rate; None: unknown.",
+        doc="Longest time between two readings of the sensor [s], with rate; None: unknown.",
     )
     longest_dt: Any = setting(
         default=None,
         convert=duration,
-        doc="A longer dt counts as this one [s]; None: no limit.",
+        doc="A longer dt counts as this dt [s]; None: no limit.",
     )
 
     def step(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
-        """One sample; ``moves``: whether the machine moves, so that the signal must change."""
+        """Checks a sample. ``moves``: the machine moves, so the signal must change."""
         (value, *_), _, fault = self._one(dt, "sample", sample, moves)
         return PlausibleResult(value, Implausible(fault) if self._alone else fault)
 
     def run(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
-        """Many samples: (samples,), or (samples, lanes); ``dt`` one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
         (value, *_), _, fault = self._many(dt, "sample", sample, moves)
         return PlausibleResult(value, fault)

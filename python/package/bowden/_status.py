@@ -1,4 +1,4 @@
-"""The result of a step: the command, whether the sample was good, and its fault."""
+"""The result of a step: command, status and fault."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Code(enum.IntEnum):
-    """A number with a name, which is its text."""
+    """A number with a name as its text."""
 
     def __str__(self) -> str:
         return self.name.lower().replace("_", " ")
@@ -19,26 +19,26 @@ class Code(enum.IntEnum):
 
 
 class Status(Code):
-    """The result of a step: the greater the number, the worse the result."""
+    """Status of a step. A larger number is a worse status."""
 
     GOOD = 0
-    #: The command comes from this sample, but the term of a regressor was dropped, or the
-    #: observer or learning could not use the sample.
+    #: The command belongs to this sample, but the term of a regressor was dropped, or the
+    #: observer or iterative learning could not use the sample.
     DEGRADED = 1
-    #: A bad sample: the last good command is held.
+    #: A bad sample. The last good command is held.
     HELD = 2
-    #: Too many bad samples: the safe command is applied until :meth:`Controller.acknowledge`.
+    #: Too many bad samples. The safe command is applied until :meth:`Controller.acknowledge`.
     SAFE = 3
 
 
 class Fault(Code):
-    """The bad input of a step; ``NONE`` is false."""
+    """Bad input of a step. ``NONE`` is false."""
 
     NONE = 0
     #: ``dt`` is not finite.
     DT = 1
     DT_NOT_POSITIVE = 2
-    #: ``dt`` exceeds ``longest_dt``, or the stability limit of the law.
+    #: ``dt`` exceeds ``longest_dt`` or the stability limit of the adaptive law.
     DT_TOO_LONG = 3
     REFERENCE = 4
     MEASURED = 5
@@ -59,7 +59,7 @@ class Fault(Code):
 
 
 class StepResult(NamedTuple):
-    """One sample; for several lanes each field is an array with one value for each lane."""
+    """Result for one sample. For several lanes each field is an array."""
 
     #: The command for the drive [command unit].
     command: Any
@@ -70,7 +70,7 @@ class StepResult(NamedTuple):
 
 
 class RunResult(NamedTuple):
-    """Many samples: arrays with shape (samples,), or (samples, lanes) for several lanes."""
+    """Results for many samples, as arrays with shape (samples,) or (samples, lanes)."""
 
     #: The command for the drive [command unit].
     command: Any
@@ -85,7 +85,7 @@ _FAULTS = {int(fault): fault for fault in Fault}
 
 
 def step_result(command: float, status: int, fault: int) -> StepResult:
-    """The result from the numbers of the native half."""
+    """The result from the numbers of the native module."""
     return StepResult(command, _STATUSES[status], _FAULTS.get(fault, Fault.OTHER))
 
 
