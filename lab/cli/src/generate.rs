@@ -1,7 +1,7 @@
 //! `bowden generate`: a generated record as CSV on stdout or in a file.
 
 use super::{outputs, Failure};
-use bowden_synth::{generate, Mode, Planted, Recipe};
+use bowden_synth::{generate, Mode, Planted, PlantedTruth, Recipe};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -39,7 +39,8 @@ pub struct Generate {
     /// [N·m or mm].
     #[arg(long, default_value_t = 0.0)]
     play: f64,
-    /// Output file [default: stdout].
+    /// Output file [default: stdout]. With a file, the true gain and shapes of each effect are
+    /// printed.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -99,10 +100,35 @@ impl Generate {
             effects,
             ..Recipe::new(mode)
         };
-        let csv = generate(&recipe).map_err(|e| e.to_string())?.to_csv();
+        let record = generate(&recipe).map_err(|e| e.to_string())?;
+        let csv = record.to_csv();
         match &self.out {
-            Some(path) => outputs::write_whole(path, csv.as_bytes()),
+            Some(path) => {
+                outputs::write_whole(path, csv.as_bytes())?;
+                super::pour(truth(&record.truth.effects).as_bytes())
+            }
             None => super::pour(csv.as_bytes()),
         }
     }
+}
+
+/// A line for each effect in the record: "viscous@phi_p: gain -0.2638, rms 0.15".
+fn truth(effects: &[PlantedTruth]) -> String {
+    // Four digits.
+    let short = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
+    let mut text = String::new();
+    for own in effects {
+        let channel = own.channel.map(|name| format!("@{name}"));
+        text += &format!("{}{}:", own.effect, channel.unwrap_or_default());
+        // The only parameter of a delay and a lag is a time.
+        let first = match own.effect.as_str() {
+            "delay" | "lag" => "time [s]",
+            _ => "gain",
+        };
+        for (name, value) in std::iter::once(&(first, own.gain)).chain(&own.shapes) {
+            text += &format!(" {name} {},", short(*value));
+        }
+        text += &format!(" rms {}\n", short(own.rms));
+    }
+    text
 }

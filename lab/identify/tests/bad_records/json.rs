@@ -63,10 +63,12 @@ fn json_without_one_table_is_refused() {
         format!("{{\"first\": {list}, \"second\": {list}}}"),
         "r.csv: the JSON holds several tables (`first`, `second`); put each into a separate file",
     );
-    refused(
-        "[[0, 1, 2], [1, 2, 3]]",
-        "r.csv:1: the rows of the JSON have no names; --names t,x,f names their columns",
-    );
+    for text in ["[[0, 1, 2], [1, 2, 3]]", "[0, 1, 2]\n[1, 2, 3]"] {
+        refused(
+            text,
+            "r.csv:1: the rows of the JSON have no names; --names t,x,f names their columns",
+        );
+    }
     refused(
         "[[\"t\", \"x\"], [1, 2, 3]]",
         "r.csv:1: 3 cells, but there are 2 names",

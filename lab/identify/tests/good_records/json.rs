@@ -78,7 +78,13 @@ fn records_and_columns_are_read_wherever_they_are() {
                 .join(",")
         ),
         format!("{{\"columns\": [\"t\", \"x\", \"f\"], \"data\": [{split}]}}"),
+        // The index that pandas writes next to the rows.
+        format!(
+            "{{\"columns\": [\"t\", \"x\", \"f\"], \"index\": {}, \"data\": [{split}]}}",
+            list("t")
+        ),
         format!("[[\"t\", \"x\", \"f\"], {split}]"),
+        format!("[\"t\", \"x\", \"f\"]\n{}", split.replace("],[", "]\n[")),
     ] {
         same(&text, &Options::default());
     }
@@ -86,8 +92,10 @@ fn records_and_columns_are_read_wherever_they_are() {
         names: ["t", "x [mm]", "f"].map(str::to_owned).to_vec(),
         ..Options::default()
     };
-    let record = same(&format!("[{split}]"), &named);
-    assert_eq!(record.input.unit.as_deref(), Some("mm"));
+    for text in [format!("[{split}]"), split.replace("],[", "]\n[")] {
+        let record = same(&text, &named);
+        assert_eq!(record.input.unit.as_deref(), Some("mm"));
+    }
 }
 
 #[test]

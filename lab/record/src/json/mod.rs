@@ -41,7 +41,7 @@ pub(super) fn is_json(text: &str) -> bool {
     let mut signs = text.chars().filter(|c| !c.is_whitespace());
     match signs.next() {
         Some('{') => signs.next() == Some('"'),
-        Some('[') => matches!(signs.next(), Some('{' | '[')),
+        Some('[') => matches!(signs.next(), Some('{' | '[' | '"' | '-' | '0'..='9')),
         _ => false,
     }
 }
@@ -130,7 +130,12 @@ fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, Record
             columns,
             ..Table::default()
         }),
-        (true, Some(rows)) if tables.is_empty() => of_rows(rows, names),
+        (_, Some(rows)) if tables.is_empty() && columns.iter().all(|own| own.cells.len() == rows.count()) => {
+            let mut table = of_rows(rows, names)?;
+            // Columns next to the rows, as the index that pandas writes.
+            table.columns.extend(columns);
+            Ok(table)
+        }
         (_, None) => Err(RecordError::new(
             "the JSON holds no table: allowed are an array of records, one record per line, or an object of columns",
         )),
@@ -238,6 +243,12 @@ impl Rows {
             rows,
             names: Vec::new(),
         }
+    }
+
+    /// Number of rows below the names.
+    fn count(&self) -> usize {
+        let has_names = self.names.is_empty() && self.rows.first().and_then(texts).is_some();
+        self.rows.len() - usize::from(has_names)
     }
 
     /// Number of cells, where the first row is an array.
@@ -357,7 +368,13 @@ mod tests {
 
     #[test]
     fn json_is_told_from_names_of_columns() {
-        for text in ["{\"t\":[0]}", " [ {\"t\":0}]", "[[0,1]]", "\n{ \"t\": 0}\n"] {
+        for text in [
+            "{\"t\":[0]}",
+            " [ {\"t\":0}]",
+            "[[0,1]]",
+            "[0, 1]\n[1, 2]",
+            "\n{ \"t\": 0}\n",
+        ] {
             assert!(is_json(text), "{text}");
         }
         for text in ["[t],[x],[f]", "{t},x", "\"t\",\"x\"", "t,x,f", "", "[", "{"] {
