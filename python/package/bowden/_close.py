@@ -58,7 +58,7 @@ def identify(
     * a list of such records of one rig, for one joint model. Of three or more records, the last
       one is held out as a whole.
 
-    Options of the program `bowden identify`, with the same names:
+    Options of the program `bowden identify`, with the same names (``channels`` is ``--channel``):
 
     channels
         Further channels by name (``phi_p``, ``phi_d``, ``temperature``, ``load``, or any other).
@@ -106,9 +106,9 @@ def identify(
     threads
         Number of threads; default: all threads of the machine. The results do not depend on it.
     progress
-        ``True`` for a new tqdm bar, an existing tqdm bar, or a function. The function is called
-        with the completed fraction (``None`` if unknown) and the current task. An exception in the
-        function ends the call, and so does Ctrl-C.
+        ``True`` for a new tqdm bar (without tqdm: lines on stderr), an existing tqdm bar, or a
+        function. The function is called with the completed fraction (``None`` if unknown) and the
+        current task. An exception in the function ends the call, and so does Ctrl-C.
 
     Raises :class:`bowden.Error`.
     """
