@@ -56,7 +56,7 @@ def identify(
       :class:`bowden.Record`, or the path of a file (CSV, JSON, .xlsx, .mat v5 or v7.3, Parquet,
       .npz or .npy; gzip is allowed).
     * a list of such records of one rig, for one joint model. Of three or more records, the last
-      one is held out as a whole.
+      one is held out as a whole, unless ``per_file`` is given.
 
     Options of the program `bowden identify`, with the same names (``channels`` is ``--channel``):
 
@@ -91,7 +91,7 @@ def identify(
     max_terms, time_limit
         Maximum number of added terms (0 to 8); time limit of the search [s].
     per_file
-        ``"gains"``: the gains may differ between files.
+        ``"gains"``: the gains may differ between files. The end of each file is then held out.
     invertible
         Restrict the exported model to models that a feed-forward can invert.
 
