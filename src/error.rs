@@ -49,9 +49,9 @@ impl core::error::Error for Error {}
 /// Makes a configuration for a `static` or a `const`, checked at compile time.
 ///
 /// The arguments are the same as at run time, for `f32` or `f64`. The macro supports all
-/// configurations except models and compensators. An invalid parameter is a compile error whose
-/// message contains the name of the parameter. The configuration is stored in flash and needs no
-/// initialisation at start-up.
+/// configurations except effects, models and compensators. An invalid parameter is a compile error
+/// whose message contains the name of the parameter. The configuration is stored in flash and needs
+/// no initialisation at start-up.
 ///
 /// ```
 /// use bowden::constant;

@@ -13,7 +13,8 @@ crate::data! {
         DtNotPositive,
         /// `dt` exceeds the longest `dt` that the configuration accepts.
         DtTooLong,
-        /// The reference, or the reference at the next sample.
+        /// The reference, the reference at the next sample, or the desired output of a
+        /// [`Compensator`](crate::control::Compensator).
         Reference,
         /// The measured output.
         Measured,
@@ -21,9 +22,11 @@ crate::data! {
         Velocity,
         /// The feed-forward command.
         FeedForward,
-        /// The command to resume from.
+        /// The command to resume from, or the applied command for a
+        /// [`DisturbanceObserver`](crate::control::DisturbanceObserver).
         Command,
-        /// The regressor with this index, counted from 0.
+        /// The regressor of an adaptive law, or the term of a compensator, with this index, counted
+        /// from 0. An index above 255 becomes 255.
         Regressor(u8),
         /// An overflow: every input is finite, but the result is not.
         Overflow,

@@ -59,15 +59,15 @@
 //! # Conventions
 //! - Configuration and state are separate types.
 //! - `try_new` checks every parameter. After that, nothing panics.
-//! - A bad sample leaves the state unchanged. A sample is bad if it contains a NaN, an infinity, or
-//!   a `dt` that is not positive.
+//! - A bad sample leaves the state unchanged, except for fault counters and elapsed times. A sample
+//!   is bad if it contains a NaN, an infinity, or a `dt` that is not positive.
 //! - Equation numbers refer to Nguyen et al. (2018); see [the equations](book::equations).
 //!
 //! # Features
 //! All features are off by default:
 //! - `serde`: every configuration is checked when it is deserialised. A [model](model::Model) is
 //!   read from the file that `bowden identify --model-out` writes.
-//! - `defmt`: the public types implement `defmt::Format`.
+//! - `defmt`: the public types implement `defmt::Format`, except samples that borrow channels.
 //! - `std`: the crate links the standard library.
 #![no_std]
 #![forbid(unsafe_code)]

@@ -19,7 +19,7 @@
 //! [`Transmission::greatest_invertible_sigma`] returns the bound.
 //! [`Transmission::nearest_invertible`] returns a transmission that satisfies it.
 //!
-//! # Noise in front of the hysteresis
+//! # Noise at the hysteresis input
 //! Noise on the input causes false reversals. With the first set, noise of 0.05 N·m rms on `tau_i`
 //! changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of the model,
 //! with a half-width of four standard deviations of the noise, reduces this error to 0.74 N·m rms.

@@ -30,7 +30,7 @@ pub enum Kind {
 /// ```
 /// use bowden_bound::{Plant, Theorem1};
 /// use bowden::control::Adaptive;
-/// let plant = Plant::new(0.5, 7.0); // alpha \[N·m/command unit\], Delta [N·m]
+/// let plant = Plant::new(0.5, 7.0); // alpha [N·m/command unit], Delta [N·m]
 /// let certificate = Theorem1::try_new(&Adaptive::paper(), &plant)?.certificate();
 /// assert!((certificate.value - 1138.0_f64).abs() < 1.0); // vacuous
 /// assert_eq!(certificate.unit(), "N·m");

@@ -88,7 +88,7 @@ const MOST_HALVINGS: u32 = 80;
 ///     slope: Interval { low: 0.33, high: 1.0 },
 ///     latency: within(0.003, 0.05),
 /// };
-/// let gait = within(1.0, 0.1); // \[s\]
+/// let gait = within(1.0, 0.1); // [s]
 /// assert!(IterativeLearningConvergence::try_new(&learning, 250, &gait, &pi, &range, 0.92).is_ok());
 /// // Without a lead the tones near the loop's own resonance would grow.
 /// let late = IterativeLearning::try_new(4.0_f32, 30.0, 0, 4)?;
@@ -123,6 +123,7 @@ impl IterativeLearningConvergence {
     ///   without learning control was found.
     /// - [`Error::Inadmissible`] if there are too few cells for the lead and the filter, or so few
     ///   that the loop responds above the Nyquist frequency of the cells.
+    /// - [`Error::Capacity`] if there are too many cells.
     /// - [`Error::Inadmissible`] if no proof of convergence was found. With some plant, a sinusoid
     ///   in the learning error may grow, or decay more slowly than `factor`.
     pub fn try_new<T: Real>(

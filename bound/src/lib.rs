@@ -11,10 +11,10 @@
 //! | [`RmsSampled`] | first order, sampled, bounded estimates | root mean square of e |
 //! | [`PerStep`] | first order, sampled, bounded estimates | V from step to step |
 //!
-//! Two further types certify a PI controller for every plant in a range:
-//! - [`ObserverStability`] certifies that a PI controller with a
+//! Two further types certify a P or PI controller for every plant in a range:
+//! - [`ObserverStability`] certifies that the controller with a
 //!   [`DisturbanceObserver`](bowden::control::DisturbanceObserver) is stable.
-//! - [`IterativeLearningConvergence`] certifies that a PI controller with
+//! - [`IterativeLearningConvergence`] certifies that the controller with
 //!   [`IterativeLearning`](bowden::control::IterativeLearning) converges.
 //!
 //! Each certificate in the table is constructed from an [`Adaptive`](bowden::control::Adaptive) law

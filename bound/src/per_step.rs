@@ -15,14 +15,14 @@ use bowden::{Error, Real};
 /// - `rate = min(2·lambda, k·lambda, sigma_p/(1 + h·sigma_p))`: half of `k·lambda·s²` compensates
 ///   xi;
 /// - `input = sum c_p·sigma_p·(p* - p0)²/(2·m_p) + W_T·eps·lambda·target + lambda·S·(Delta -
-///   target) + Xi²/(2·k·lambda) + (h/2)·R`, where `target` is Delta, or the upper bound of
-///   delta_hat if this is below Delta. In the box of [`PeakSampled`], R bounds the second-order
-///   terms `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
+///   target) + Xi²/(2·k·lambda) + (h/2)·R`, where `target` is Delta, the upper bound of delta_hat
+///   if this is below Delta, or the value of a constant delta_hat. In the box of [`PeakSampled`], R
+///   bounds the second-order terms `((s⁺-s)/h)² + ((z⁺-z)/h)² + sum c_p·m_p·v_p²`.
 ///
 /// Further assumptions, in addition to those of [`PeakSampled`]:
 /// - the errors are in the box of [`PeakSampled`];
 /// - `dt` is the step h of the form at every sample;
-/// - the leakage is constant;
+/// - the leakage of each estimate that adapts is constant and positive;
 /// - the bounds on the estimates contain the true values;
 /// - `h·rate <= 1`.
 ///

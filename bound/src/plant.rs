@@ -66,7 +66,7 @@ impl<T: Real> Interval<T> {
 pub struct Known<T> {
     /// Interval of theta_i \[N·m/unit of the regressor\].
     pub theta: Interval<T>,
-    /// Largest `|x_i|` \[unit of the regressor\], for peak certificates only.
+    /// Largest `|x_i|` \[unit of the regressor\], for peak and sampled certificates only.
     pub magnitude: T,
     /// Largest rate of x_i \[unit/s\], for sampled certificates only.
     pub rate: T,
@@ -102,7 +102,7 @@ pub struct Plant<T, const N: usize> {
     pub delta_rate: T,
     /// Coefficients and regressors.
     pub regressors: [Known<T>; N],
-    /// Largest `|y_r|` \[N·m\], for peak certificates only.
+    /// Largest `|y_r|` \[N·m\], for peak and sampled certificates only.
     pub reference: T,
     /// Largest `|y_r'|` \[N·m/s\], for sampled certificates only.
     pub reference_rate: T,

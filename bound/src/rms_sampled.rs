@@ -21,7 +21,8 @@ use bowden::{Error, Real};
 /// `(1 - h·lambda)·sum(e²) <= sum(s²)` (`theorems/Decrease.v`), so
 /// `rms(e) <= rms(s)/sqrt(1 - h·lambda)`.
 ///
-/// Assumptions: the same as for [`PerStep`](super::PerStep), and z(0) = 0.
+/// Assumptions: the same as for [`PerStep`](super::PerStep), z(0) = 0 and `h·lambda < 1`. In
+/// contrast to [`PerStep`](super::PerStep), the leakage may be zero.
 ///
 /// ```
 /// use bowden_bound::{Plant, RmsSampled};

@@ -9,7 +9,7 @@ use bowden::{Error, Real};
 ///
 /// The proof of [`Theorem1`](super::Theorem1) leaves three constants free: the weight c in
 /// `V = s²/2 + c·z²/2 + ...`, a target T of delta_hat of at most Delta, and a rate theta below
-/// twice the slowest leakage. Then `V' <= -theta·V + phi`, where phi is the sum of
+/// 2·lambda and twice the slowest leakage. Then `V' <= -theta·V + phi`, where phi is the sum of
 ///
 /// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, with T instead of
 ///   p* for delta;

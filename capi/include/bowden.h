@@ -17,8 +17,8 @@
  *
  * The macro sets the defaults and a mark. NAME_init rejects settings without the mark, because an
  * initialiser in C sets the fields that it does not name to zero. The macro gives each field that
- * you must set an invalid value. NAME_init rejects this value and reports the name of the field. An
- * estimate of the adaptive law has its own macro:
+ * you must set an invalid value. NAME_init rejects this value and reports the name of the field or
+ * the violated condition. An estimate of the adaptive law has its own macro:
  *
  *     settings.theta[0] = (bowden_estimator_f32)BOWDEN_ESTIMATOR_F32_INIT;
  *
@@ -28,15 +28,16 @@
  * errors. Other invalid pointers cannot be detected. Do not use an object from two threads, or from
  * a task and its interrupt, at the same time.
  *
- * Results. Zero: success. Positive: the sample was not good, but the output was written. Negative:
- * an error; the object and the output are unchanged. Test for `< 0`, then read the output.
+ * Results. Zero: success. Positive: the output was written, but the sample was bad or the output is
+ * of limited validity. Negative: an error; the object and the output are unchanged. Test for `< 0`,
+ * then read the output.
  *
- * Bad samples. A sample is bad if a measurement, the reference or dt is NaN or infinite, or if dt
- * is not positive or too long. A bad sample leaves the state unchanged and holds the last good
- * command. After too many bad samples the safe command is applied until the fault is acknowledged,
- * even if later samples are good. The command is always finite and within the limits. The held
- * output of a filter, a play, a cable, a model or a compensator is zero before the first good
- * sample.
+ * Bad samples. A sample is bad if a number that the function reads is NaN or infinite, or if dt is
+ * not positive or too long. A bad sample leaves the state unchanged, except for fault counters and
+ * elapsed times, and holds the last good command. After too many bad samples the safe command is
+ * applied until the fault is acknowledged, even if later samples are good. The command of a
+ * controller is always finite and within the limits. The held output of a filter, a play, a cable,
+ * a model or a compensator is zero before the first good sample.
  *
  * Numbers in brackets, such as (14), are equations of the paper: T. L. Nguyen, S. Allen and
  * S. J. Phee, "Direct torque control for cable conduit mechanisms for the robotic foot for footwear
@@ -170,8 +171,8 @@
 // Size in 64-bit words.
 #define BOWDEN_RELAY_F64_WORDS 44
 
-// Result of a function. Zero: success. Positive: the sample was not good, but the output was
-// written. Negative: an error.
+// Result of a function. Zero: success. Positive: the output was written, but the sample was bad or
+// the output is of limited validity. Negative: an error.
 enum bowden_result
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -205,7 +206,7 @@ enum bowden_result
     BOWDEN_RESULT_ERROR_NON_FINITE = -4,
     // A setting is outside its range.
     BOWDEN_RESULT_ERROR_OUT_OF_RANGE = -5,
-    // Two settings together violate a condition.
+    // The settings or arguments together violate a condition.
     BOWDEN_RESULT_ERROR_INADMISSIBLE = -6,
     // There are too many items.
     BOWDEN_RESULT_ERROR_CAPACITY = -7,
@@ -239,7 +240,7 @@ enum bowden_fault
     BOWDEN_FAULT_DT_NOT_POSITIVE = 2,
     // dt exceeds `longest_dt` or the stability limit of the adaptive law.
     BOWDEN_FAULT_DT_TOO_LONG = 3,
-    // The reference or the next reference.
+    // The reference, the next reference, or the desired output of a compensator.
     BOWDEN_FAULT_REFERENCE = 4,
     // The measured output.
     BOWDEN_FAULT_MEASURED = 5,
@@ -247,7 +248,7 @@ enum bowden_fault
     BOWDEN_FAULT_VELOCITY = 6,
     // The feed-forward command.
     BOWDEN_FAULT_FEED_FORWARD = 7,
-    // The command to resume from.
+    // The command to resume from, or the applied command for an observer.
     BOWDEN_FAULT_COMMAND = 8,
     // A regressor of the adaptive law, or an input of a model term. The output contains the index.
     BOWDEN_FAULT_REGRESSOR = 9,
@@ -397,7 +398,7 @@ enum bowden_mode
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // Torque to torque, equation (5): y = gain*u - kappa_eta*eta - offset.
+    // Torque to torque, equation (6): y = gain*u - kappa_eta*eta - offset.
     BOWDEN_MODE_TORQUE = 0,
     // Displacement to force, equation (1): y = gain*u + kappa_eta*eta + offset.
     BOWDEN_MODE_DISPLACEMENT = 1,
@@ -538,8 +539,8 @@ typedef struct bowden_adaptive_f32 {
 
 // Settings of one estimate in (24)-(26).
 //
-// The macro of the adaptive law also initialises its estimates. By default the
-// estimate is fixed at 0, with a gain of 0 and no leakage.
+// The macro of the adaptive law also initialises its estimates. By itself, the macro
+// of an estimate fixes the estimate at 0, with a gain of 0 and no leakage.
 typedef struct bowden_estimator_f32 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
@@ -609,7 +610,7 @@ typedef struct bowden_fallback_f32 {
 // - k, lambda and epsilon of the paper, the tanh function, and a time constant of 5
 //   ms;
 // - beta_hat fixed at 1, delta_hat fixed at 0, and no regressors;
-// - no limit of z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
+// - no limit on z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
 //
 // You must set `form`, `limits`, `longest_dt` and `fallback.after`. The first-order
 // form also requires `step` and `plant_gain`.
@@ -697,7 +698,8 @@ typedef struct bowden_adaptive_sample_f32 {
     float dt;
     // Reference y_r [N*m].
     float reference;
-    // Reference at the next sample [N*m]. Only the first-order form uses it.
+    // Reference at the next sample [N*m]. Only the first-order form uses its value,
+    // but it must be finite in both forms.
     float next_reference;
     // Measured output torque y [N*m].
     float measured;
@@ -740,8 +742,8 @@ typedef struct bowden_adaptive_f64 {
 
 // Settings of one estimate in (24)-(26).
 //
-// The macro of the adaptive law also initialises its estimates. By default the
-// estimate is fixed at 0, with a gain of 0 and no leakage.
+// The macro of the adaptive law also initialises its estimates. By itself, the macro
+// of an estimate fixes the estimate at 0, with a gain of 0 and no leakage.
 typedef struct bowden_estimator_f64 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
@@ -811,7 +813,7 @@ typedef struct bowden_fallback_f64 {
 // - k, lambda and epsilon of the paper, the tanh function, and a time constant of 5
 //   ms;
 // - beta_hat fixed at 1, delta_hat fixed at 0, and no regressors;
-// - no limit of z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
+// - no limit on z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
 //
 // You must set `form`, `limits`, `longest_dt` and `fallback.after`. The first-order
 // form also requires `step` and `plant_gain`.
@@ -893,7 +895,8 @@ typedef struct bowden_adaptive_sample_f64 {
     double dt;
     // Reference y_r [N*m].
     double reference;
-    // Reference at the next sample [N*m]. Only the first-order form uses it.
+    // Reference at the next sample [N*m]. Only the first-order form uses its value,
+    // but it must be finite in both forms.
     double next_reference;
     // Measured output torque y [N*m].
     double measured;
@@ -1275,13 +1278,13 @@ typedef struct bowden_hysteresis_settings_f32 {
     0.0f /* eta */ \
 }
 
-// Transmission, equations (1) and (5), with its state.
+// Transmission, equations (1) and (6), with its state.
 typedef struct bowden_cable_f32 {
     // Private; do not use.
     uint64_t opaque[BOWDEN_CABLE_F32_WORDS];
 } bowden_cable_f32;
 
-// Parameters of a transmission, equations (1), (2), (5) and (7).
+// Parameters of a transmission, equations (1), (2), (6) and (7).
 //
 // By default `offset` and `eta` are 0. You must set all other fields.
 typedef struct bowden_cable_settings_f32 {
@@ -1289,11 +1292,11 @@ typedef struct bowden_cable_settings_f32 {
     uint32_t init_mark;
     // Mode of the transmission, one of bowden_mode.
     uint32_t mode;
-    // B of (5) or kappa of (1) [output unit/input unit].
+    // B of (6) or k_x of (1) [output unit/input unit].
     float gain;
     // Hysteresis gain [output unit].
     float kappa_eta;
-    // T0 of (5) or the offset of (1) [output unit]; 0 by default.
+    // T0 of (6) or the offset added to (1) [output unit]; 0 by default.
     float offset;
     // rho [1/input unit], positive: initial slope of eta.
     float rho;
@@ -1320,7 +1323,7 @@ typedef struct bowden_cable_settings_f32 {
     0.0f /* eta */ \
 }
 
-// Inverse of a transmission, equation (6), with its state.
+// Inverse of a transmission, equations (1) and (6), with its state.
 typedef struct bowden_inverse_f32 {
     // Private; do not use.
     uint64_t opaque[BOWDEN_INVERSE_F32_WORDS];
@@ -1359,13 +1362,13 @@ typedef struct bowden_hysteresis_settings_f64 {
     0.0 /* eta */ \
 }
 
-// Transmission, equations (1) and (5), with its state.
+// Transmission, equations (1) and (6), with its state.
 typedef struct bowden_cable_f64 {
     // Private; do not use.
     uint64_t opaque[BOWDEN_CABLE_F64_WORDS];
 } bowden_cable_f64;
 
-// Parameters of a transmission, equations (1), (2), (5) and (7).
+// Parameters of a transmission, equations (1), (2), (6) and (7).
 //
 // By default `offset` and `eta` are 0. You must set all other fields.
 typedef struct bowden_cable_settings_f64 {
@@ -1373,11 +1376,11 @@ typedef struct bowden_cable_settings_f64 {
     uint32_t init_mark;
     // Mode of the transmission, one of bowden_mode.
     uint32_t mode;
-    // B of (5) or kappa of (1) [output unit/input unit].
+    // B of (6) or k_x of (1) [output unit/input unit].
     double gain;
     // Hysteresis gain [output unit].
     double kappa_eta;
-    // T0 of (5) or the offset of (1) [output unit]; 0 by default.
+    // T0 of (6) or the offset added to (1) [output unit]; 0 by default.
     double offset;
     // rho [1/input unit], positive: initial slope of eta.
     double rho;
@@ -1404,7 +1407,7 @@ typedef struct bowden_cable_settings_f64 {
     0.0 /* eta */ \
 }
 
-// Inverse of a transmission, equation (6), with its state.
+// Inverse of a transmission, equations (1) and (6), with its state.
 typedef struct bowden_inverse_f64 {
     // Private; do not use.
     uint64_t opaque[BOWDEN_INVERSE_F64_WORDS];
@@ -1704,7 +1707,7 @@ typedef struct bowden_pid_settings_f32 {
     float deadband;
     // Period of an output that wraps [output unit], such as 360 degrees; 0 if the
     // output does not wrap. Errors and changes are measured along the shorter way
-    // round.
+    // round. A period requires b = 1, and a c of 0 or 1.
     float period;
     // Range and slew-rate limit of the command.
     struct bowden_limits_f32 limits;
@@ -1773,7 +1776,8 @@ typedef struct bowden_pid_terms_f32 {
     float feed_forward;
     // Command before limiting [command unit].
     float unlimited;
-    // 1 if the range or the slew-rate limit changed the command, otherwise 0.
+    // 1 if the applied command differs from `unlimited`, otherwise 0. Causes are the
+    // range, the slew-rate limit, the safe command and bowden_pid_applied.
     uint32_t saturated;
 } bowden_pid_terms_f32;
 
@@ -1819,7 +1823,7 @@ typedef struct bowden_pid_settings_f64 {
     double deadband;
     // Period of an output that wraps [output unit], such as 360 degrees; 0 if the
     // output does not wrap. Errors and changes are measured along the shorter way
-    // round.
+    // round. A period requires b = 1, and a c of 0 or 1.
     double period;
     // Range and slew-rate limit of the command.
     struct bowden_limits_f64 limits;
@@ -1888,7 +1892,8 @@ typedef struct bowden_pid_terms_f64 {
     double feed_forward;
     // Command before limiting [command unit].
     double unlimited;
-    // 1 if the range or the slew-rate limit changed the command, otherwise 0.
+    // 1 if the applied command differs from `unlimited`, otherwise 0. Causes are the
+    // range, the slew-rate limit, the safe command and bowden_pid_applied.
     uint32_t saturated;
 } bowden_pid_terms_f64;
 
@@ -1915,8 +1920,8 @@ typedef struct bowden_plausible_settings_f32 {
     // unknown. A repeated reading then counts as at most this old. This setting has no
     // effect without a rate.
     float sample_period;
-    // Number of consecutive equal samples that indicate a stuck sensor; 0 disables
-    // this check. Samples count only while the machine moves.
+    // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
+    // check. Repetitions count only while the machine moves.
     uint32_t stuck_after;
     // A dt that is longer, negative or not finite counts as this dt [s], at least 0.
     // With 0, the time after a negative or non-finite dt is unknown.
@@ -1970,8 +1975,8 @@ typedef struct bowden_plausible_settings_f64 {
     // unknown. A repeated reading then counts as at most this old. This setting has no
     // effect without a rate.
     double sample_period;
-    // Number of consecutive equal samples that indicate a stuck sensor; 0 disables
-    // this check. Samples count only while the machine moves.
+    // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
+    // check. Repetitions count only while the machine moves.
     uint32_t stuck_after;
     // A dt that is longer, negative or not finite counts as this dt [s], at least 0.
     // With 0, the time after a negative or non-finite dt is unknown.
@@ -2330,8 +2335,9 @@ bowden_result bowden_adaptive_get_estimates_f32(const struct bowden_adaptive_f32
                                                 struct bowden_estimates_f32 *out);
 
 // Reports the command [command unit] that the drive applied after the last step; see
-// bowden_pid_applied. z then moves no further towards the limit of the drive, and the
-// estimates do not change.
+// bowden_pid_applied. At the next good sample, z moves no further towards the limit of
+// the drive. The estimates then do not change if s requires more than this limit
+// allows.
 bowden_result bowden_adaptive_applied_f32(struct bowden_adaptive_f32 *law, float command);
 
 // Reports the limit at which the drive was after the last step; see
@@ -2358,7 +2364,8 @@ bowden_result bowden_adaptive_change_f32(struct bowden_adaptive_f32 *law,
                                          struct bowden_about *about);
 
 // Restarts the law with the initial estimates, so that the next step with this sample
-// gives `command` [command unit]. See bowden_pid_resume.
+// gives `command` [command unit]. See bowden_pid_resume. In the first-order form, the
+// dt of this sample must be the sampling period.
 bowden_result bowden_adaptive_resume_f32(struct bowden_adaptive_f32 *law,
                                          float command,
                                          const struct bowden_adaptive_sample_f32 *sample,
@@ -2386,8 +2393,9 @@ bowden_result bowden_adaptive_get_estimates_f64(const struct bowden_adaptive_f64
                                                 struct bowden_estimates_f64 *out);
 
 // Reports the command [command unit] that the drive applied after the last step; see
-// bowden_pid_applied. z then moves no further towards the limit of the drive, and the
-// estimates do not change.
+// bowden_pid_applied. At the next good sample, z moves no further towards the limit of
+// the drive. The estimates then do not change if s requires more than this limit
+// allows.
 bowden_result bowden_adaptive_applied_f64(struct bowden_adaptive_f64 *law, double command);
 
 // Reports the limit at which the drive was after the last step; see
@@ -2414,7 +2422,8 @@ bowden_result bowden_adaptive_change_f64(struct bowden_adaptive_f64 *law,
                                          struct bowden_about *about);
 
 // Restarts the law with the initial estimates, so that the next step with this sample
-// gives `command` [command unit]. See bowden_pid_resume.
+// gives `command` [command unit]. See bowden_pid_resume. In the first-order form, the
+// dt of this sample must be the sampling period.
 bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
                                          double command,
                                          const struct bowden_adaptive_sample_f64 *sample,
@@ -2424,14 +2433,14 @@ bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
 bowden_result bowden_adaptive_is_latched_f64(const struct bowden_adaptive_f64 *law,
                                              uint32_t *latched);
 
-// Inverts a loaded model, equations (5)-(7), and initialises the state at zero:
+// Inverts a loaded model and initialises the state at zero:
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
 // A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
-// A term of the model must read the source of each range. `ranges` may be null if
-// `range_count` is 0. `about` may be null. The compensator does not use the model
-// afterwards.
+// A term of the model must read the source of each range, except BOWDEN_SOURCE_INPUT.
+// `ranges` may be null if `range_count` is 0. `about` may be null. The compensator
+// does not use the model afterwards.
 //
 // A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
 bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compensator,
@@ -2479,14 +2488,14 @@ bowden_result bowden_compensator_at_limit_f32(struct bowden_compensator_f32 *com
 // Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
 bowden_result bowden_compensator_reset_f32(struct bowden_compensator_f32 *compensator, float eta);
 
-// Inverts a loaded model, equations (5)-(7), and initialises the state at zero:
+// Inverts a loaded model and initialises the state at zero:
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
 // A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
-// A term of the model must read the source of each range. `ranges` may be null if
-// `range_count` is 0. `about` may be null. The compensator does not use the model
-// afterwards.
+// A term of the model must read the source of each range, except BOWDEN_SOURCE_INPUT.
+// `ranges` may be null if `range_count` is 0. `about` may be null. The compensator
+// does not use the model afterwards.
 //
 // A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
 bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compensator,
@@ -2994,9 +3003,9 @@ bowden_result bowden_pid_applied_f32(struct bowden_pid_f32 *pid, float command);
 // bowden_saturation. Use this function for a drive that does not report its command,
 // such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
 //
-// Call this function between two steps. The integral then does not move further
-// towards the limit. Another value of `saturation` is an error
-// (BOWDEN_RESULT_ERROR_CHOICE).
+// Call this function between two steps. The last change of the integral towards the
+// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. Another value of
+// `saturation` is an error (BOWDEN_RESULT_ERROR_CHOICE).
 bowden_result bowden_pid_at_limit_f32(struct bowden_pid_f32 *pid, uint32_t saturation);
 
 // Sets `saturation` to the limit that was active at the last good sample, one of
@@ -3023,8 +3032,9 @@ bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 bowden_result bowden_pid_restore_f32(struct bowden_pid_f32 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
-// without a jump. A `command` that is not finite counts as a bad sample. A latched
-// safe command stays latched. `out` receives the applied command and may be null.
+// without a jump. A `command` or a sample that is not finite counts as a bad sample. A
+// latched safe command stays latched. `out` receives the applied command and may be
+// null.
 bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     float command,
                                     const struct bowden_pid_sample_f32 *sample,
@@ -3090,9 +3100,9 @@ bowden_result bowden_pid_applied_f64(struct bowden_pid_f64 *pid, double command)
 // bowden_saturation. Use this function for a drive that does not report its command,
 // such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
 //
-// Call this function between two steps. The integral then does not move further
-// towards the limit. Another value of `saturation` is an error
-// (BOWDEN_RESULT_ERROR_CHOICE).
+// Call this function between two steps. The last change of the integral towards the
+// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. Another value of
+// `saturation` is an error (BOWDEN_RESULT_ERROR_CHOICE).
 bowden_result bowden_pid_at_limit_f64(struct bowden_pid_f64 *pid, uint32_t saturation);
 
 // Sets `saturation` to the limit that was active at the last good sample, one of
@@ -3119,8 +3129,9 @@ bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 bowden_result bowden_pid_restore_f64(struct bowden_pid_f64 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
-// without a jump. A `command` that is not finite counts as a bad sample. A latched
-// safe command stays latched. `out` receives the applied command and may be null.
+// without a jump. A `command` or a sample that is not finite counts as a bad sample. A
+// latched safe command stays latched. `out` receives the applied command and may be
+// null.
 bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     double command,
                                     const struct bowden_pid_sample_f64 *sample,
@@ -3269,7 +3280,7 @@ bowden_result bowden_relay_is_latched_f32(const struct bowden_relay_f32 *relay, 
 // (otherwise BOWDEN_RESULT_ERROR_CHOICE).
 //
 // A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
-// The result is zero until the experiment is done. Then continue with
+// The result is zero until the experiment is done. With these gains, continue with
 // bowden_pid_resume from the applied command.
 bowden_result bowden_relay_gains_f32(const struct bowden_ultimate_f32 *ultimate,
                                      uint32_t rule,
@@ -3306,7 +3317,7 @@ bowden_result bowden_relay_is_latched_f64(const struct bowden_relay_f64 *relay, 
 // (otherwise BOWDEN_RESULT_ERROR_CHOICE).
 //
 // A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
-// The result is zero until the experiment is done. Then continue with
+// The result is zero until the experiment is done. With these gains, continue with
 // bowden_pid_resume from the applied command.
 bowden_result bowden_relay_gains_f64(const struct bowden_ultimate_f64 *ultimate,
                                      uint32_t rule,

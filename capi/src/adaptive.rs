@@ -31,7 +31,8 @@ macro_rules! adaptive {
                 pub dt: $f,
                 /// Reference y_r [N*m].
                 pub reference: $f,
-                /// Reference at the next sample [N*m]. Only the first-order form uses it.
+                /// Reference at the next sample [N*m]. Only the first-order form uses its value,
+                /// but it must be finite in both forms.
                 pub next_reference: $f,
                 /// Measured output torque y [N*m].
                 pub measured: $f,
@@ -149,8 +150,9 @@ macro_rules! adaptive {
             }
 
             /// Reports the command [command unit] that the drive applied after the last step; see
-            /// bowden_pid_applied. z then moves no further towards the limit of the drive, and the
-            /// estimates do not change.
+            /// bowden_pid_applied. At the next good sample, z moves no further towards the limit of
+            /// the drive. The estimates then do not change if s requires more than this limit
+            /// allows.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_applied_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -242,7 +244,8 @@ macro_rules! adaptive {
             }
 
             /// Restarts the law with the initial estimates, so that the next step with this sample
-            /// gives `command` [command unit]. See bowden_pid_resume.
+            /// gives `command` [command unit]. See bowden_pid_resume. In the first-order form, the
+            /// dt of this sample must be the sampling period.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_resume_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],

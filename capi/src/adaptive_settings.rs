@@ -14,8 +14,8 @@ macro_rules! settings {
         pastey::paste! {
             /// Settings of one estimate in (24)-(26).
             ///
-            /// The macro of the adaptive law also initialises its estimates. By default the
-            /// estimate is fixed at 0, with a gain of 0 and no leakage.
+            /// The macro of the adaptive law also initialises its estimates. By itself, the macro
+            /// of an estimate fixes the estimate at 0, with a gain of 0 and no leakage.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_estimator_ $f>] {
@@ -91,7 +91,7 @@ macro_rules! settings {
             /// - k, lambda and epsilon of the paper, the tanh function, and a time constant of 5
             ///   ms;
             /// - beta_hat fixed at 1, delta_hat fixed at 0, and no regressors;
-            /// - no limit of z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
+            /// - no limit on z, no slew-rate limit, a fallback weight of 4 and a safe command of 0.
             ///
             /// You must set `form`, `limits`, `longest_dt` and `fallback.after`. The first-order
             /// form also requires `step` and `plant_gain`.

@@ -94,14 +94,14 @@ macro_rules! compensator {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Inverts a loaded model, equations (5)-(7), and initialises the state at zero:
+            /// Inverts a loaded model and initialises the state at zero:
             ///
             ///     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
             ///
             /// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
-            /// A term of the model must read the source of each range. `ranges` may be null if
-            /// `range_count` is 0. `about` may be null. The compensator does not use the model
-            /// afterwards.
+            /// A term of the model must read the source of each range, except BOWDEN_SOURCE_INPUT.
+            /// `ranges` may be null if `range_count` is 0. `about` may be null. The compensator
+            /// does not use the model afterwards.
             ///
             /// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
             #[no_mangle]

@@ -10,7 +10,7 @@ use core_bowden::transmission::{Inverse, Transmission};
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_mode {
-    /// Torque to torque, equation (5): y = gain*u - kappa_eta*eta - offset.
+    /// Torque to torque, equation (6): y = gain*u - kappa_eta*eta - offset.
     Torque = 0,
     /// Displacement to force, equation (1): y = gain*u + kappa_eta*eta + offset.
     Displacement = 1,
@@ -41,7 +41,7 @@ fn good(is_good: bool) -> bowden_result {
 macro_rules! hysteresis {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Parameters of a transmission, equations (1), (2), (5) and (7).
+            /// Parameters of a transmission, equations (1), (2), (6) and (7).
             ///
             /// By default `offset` and `eta` are 0. You must set all other fields.
             #[repr(C)]
@@ -51,11 +51,11 @@ macro_rules! hysteresis {
                 pub init_mark: u32,
                 /// Mode of the transmission, one of bowden_mode.
                 pub mode: u32,
-                /// B of (5) or kappa of (1) [output unit/input unit].
+                /// B of (6) or k_x of (1) [output unit/input unit].
                 pub gain: $f,
                 /// Hysteresis gain [output unit].
                 pub kappa_eta: $f,
-                /// T0 of (5) or the offset of (1) [output unit]; 0 by default.
+                /// T0 of (6) or the offset added to (1) [output unit]; 0 by default.
                 pub offset: $f,
                 /// rho [1/input unit], positive: initial slope of eta.
                 pub rho: $f,
@@ -150,7 +150,7 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Transmission, equations (1) and (5), with its state.
+            /// Transmission, equations (1) and (6), with its state.
             #[repr(C)]
             pub struct [<bowden_cable_ $f>] {
                 /// Private; do not use.
@@ -163,7 +163,7 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic + 1;
             }
 
-            /// Inverse of a transmission, equation (6), with its state.
+            /// Inverse of a transmission, equations (1) and (6), with its state.
             #[repr(C)]
             pub struct [<bowden_inverse_ $f>] {
                 /// Private; do not use.

@@ -64,7 +64,8 @@ macro_rules! pid {
                 pub feed_forward: $f,
                 /// Command before limiting [command unit].
                 pub unlimited: $f,
-                /// 1 if the range or the slew-rate limit changed the command, otherwise 0.
+                /// 1 if the applied command differs from `unlimited`, otherwise 0. Causes are the
+                /// range, the slew-rate limit, the safe command and bowden_pid_applied.
                 pub saturated: u32,
             }
 
@@ -203,9 +204,9 @@ macro_rules! pid {
             /// bowden_saturation. Use this function for a drive that does not report its command,
             /// such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
             ///
-            /// Call this function between two steps. The integral then does not move further
-            /// towards the limit. Another value of `saturation` is an error
-            /// (BOWDEN_RESULT_ERROR_CHOICE).
+            /// Call this function between two steps. The last change of the integral towards the
+            /// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. Another value of
+            /// `saturation` is an error (BOWDEN_RESULT_ERROR_CHOICE).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_at_limit_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -288,8 +289,9 @@ macro_rules! pid {
             }
 
             /// Restarts the controller so that the command continues from `command` [command unit]
-            /// without a jump. A `command` that is not finite counts as a bad sample. A latched
-            /// safe command stays latched. `out` receives the applied command and may be null.
+            /// without a jump. A `command` or a sample that is not finite counts as a bad sample. A
+            /// latched safe command stays latched. `out` receives the applied command and may be
+            /// null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_resume_ $f>](
                 pid: *mut [<bowden_pid_ $f>],

@@ -79,7 +79,7 @@ macro_rules! settings {
                 pub deadband: $f,
                 /// Period of an output that wraps [output unit], such as 360 degrees; 0 if the
                 /// output does not wrap. Errors and changes are measured along the shorter way
-                /// round.
+                /// round. A period requires b = 1, and a c of 0 or 1.
                 pub period: $f,
                 /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],

@@ -75,8 +75,8 @@ macro_rules! plausible {
                 /// unknown. A repeated reading then counts as at most this old. This setting has no
                 /// effect without a rate.
                 pub sample_period: $f,
-                /// Number of consecutive equal samples that indicate a stuck sensor; 0 disables
-                /// this check. Samples count only while the machine moves.
+                /// Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
+                /// check. Repetitions count only while the machine moves.
                 pub stuck_after: u32,
                 /// A dt that is longer, negative or not finite counts as this dt [s], at least 0.
                 /// With 0, the time after a negative or non-finite dt is unknown.

@@ -313,7 +313,7 @@ macro_rules! relay {
             /// (otherwise BOWDEN_RESULT_ERROR_CHOICE).
             ///
             /// A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
-            /// The result is zero until the experiment is done. Then continue with
+            /// The result is zero until the experiment is done. With these gains, continue with
             /// bowden_pid_resume from the applied command.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_gains_ $f>](

@@ -6,8 +6,8 @@ use core_bowden::control::{Fault, Status};
 use core_bowden::signal::RateStatus;
 use core_bowden::Error;
 
-/// Result of a function. Zero: success. Positive: the sample was not good, but the output was
-/// written. Negative: an error.
+/// Result of a function. Zero: success. Positive: the output was written, but the sample was bad or
+/// the output is of limited validity. Negative: an error.
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_result {
@@ -39,7 +39,7 @@ pub enum bowden_result {
     ErrorNonFinite = -4,
     /// A setting is outside its range.
     ErrorOutOfRange = -5,
-    /// Two settings together violate a condition.
+    /// The settings or arguments together violate a condition.
     ErrorInadmissible = -6,
     /// There are too many items.
     ErrorCapacity = -7,
@@ -64,7 +64,7 @@ pub enum bowden_fault {
     DtNotPositive = 2,
     /// dt exceeds `longest_dt` or the stability limit of the adaptive law.
     DtTooLong = 3,
-    /// The reference or the next reference.
+    /// The reference, the next reference, or the desired output of a compensator.
     Reference = 4,
     /// The measured output.
     Measured = 5,
@@ -72,7 +72,7 @@ pub enum bowden_fault {
     Velocity = 6,
     /// The feed-forward command.
     FeedForward = 7,
-    /// The command to resume from.
+    /// The command to resume from, or the applied command for an observer.
     Command = 8,
     /// A regressor of the adaptive law, or an input of a model term. The output contains the index.
     Regressor = 9,

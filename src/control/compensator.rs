@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The feed-forward supplements a PI or an adaptive law. A step evaluates the effects at the given
-//! motions and subtracts them from the desired output. It then inverts equations (5) to (7) exactly
-//! along the path of the hysteresis.
+//! motions and subtracts them from the desired output. It then inverts the transmission along the
+//! path of the hysteresis, up to rounding errors.
 //!
 //! Use the reference as the desired output, not the measured output, because noise corrupts the
 //! hysteresis state ([`transmission`](crate::transmission)).
@@ -46,7 +46,8 @@ pub struct CompensatorInput<'a, T> {
 }
 
 impl<T: Real> CompensatorInput<'_, T> {
-    /// A sample for a model whose effects read no motion, from `dt` \[s\] and `desired`.
+    /// A sample for a model whose effects read neither motion nor load, from `dt` \[s\] and
+    /// `desired`.
     pub fn new(dt: T, desired: T) -> Self {
         Self {
             dt,
@@ -131,11 +132,12 @@ impl<T: Real> BenchRange<T> {
 /// Two rules apply to effects that depend on the result:
 /// - An effect that reads the transmission's input or the load uses the values in the sample, for
 ///   example the last command. Each sample is then one step of an iteration. The iteration
-///   converges if the slope of the effect with respect to these values is below the gain of the
-///   cable.
+///   converges if the magnitude of the effect's slope over these values is below the smallest slope
+///   of the transmission. With friction, this slope is below the gain of the cable.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
 /// Without such effects, the output of the model for `command` is `desired`, up to rounding errors.
+/// A play or a clamped motion adds an error.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
@@ -184,7 +186,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// - a term is an input stage (a play in series), whose inverse jumps.
     ///
     /// In the last three cases, [`try_nearest`](Self::try_nearest) changes the model so that it has
-    /// an inverse, and returns the changes.
+    /// an inverse, and returns the changes. A gain of zero is an error there as well.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
@@ -254,8 +256,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// Sources without a range are not clamped. If a source has two ranges, the later one applies.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] if a range is not finite; [`Error::Inadmissible`] if `low > high` or if
-    /// no term reads the source.
+    /// [`Error::NonFinite`] if a range is not finite; [`Error::Inadmissible`] if `low > high`, or
+    /// if no term reads the source. A range of [`Source::Input`] needs no such term.
     pub fn with_ranges(mut self, ranges: &[BenchRange<T>]) -> Result<Self, Error> {
         for range in ranges {
             range.check()?;
@@ -288,8 +290,9 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// A bad sample holds the last good command, and leaves the state unchanged except for the
     /// count of bad samples. The command is zero before the first good sample. A sample is bad if
     /// - `dt` is not positive or too long,
-    /// - the desired output or a number that a term reads is not finite, or
-    /// - a channel is missing.
+    /// - the desired output or a number that a term reads is not finite,
+    /// - a channel that a term reads is missing, or
+    /// - the command overflows.
     pub fn step(
         &self,
         state: &mut CompensatorState<T, N>,

@@ -49,8 +49,8 @@ pub struct LoopSample<'a, T> {
     pub dt: T,
     /// Reference y_r \[output unit\], such as \[N·m\].
     pub reference: T,
-    /// Reference at the next sample \[output unit\]; only the first-order form of the adaptive law
-    /// reads it.
+    /// Reference at the next sample \[output unit\]. Only the first-order form of the adaptive law
+    /// uses the value, but both forms reject a value that is not finite.
     pub next_reference: T,
     /// Measured output y \[output unit\].
     pub measured: T,

@@ -15,7 +15,7 @@
 //! ```text
 //! Q(f) = (sin(M·x)/(M·sin(x)))², x = pi·f/(cells per second)
 //! ```
-//! The gain is 0.71 at the frequency 0.32·(cells per second)/M.
+//! For M of 3 or more, the gain is about 0.71 at the frequency 0.32·(cells per second)/M.
 //!
 //! The learned values are clamped, so the feed-forward is within ±limit for any input.
 //! *Convergence* depends on the gain, the lead, the filter and the loop; see

@@ -48,8 +48,8 @@ crate::checked! {
     /// may oscillate. Here, `noise` is the largest change of the measured output between samples,
     /// and `rate` is the sampling rate \[Hz\]. Choose a higher slew-rate limit or a smaller gain.
     ///
-    /// In `f32`, the spacing of neighbouring floats is about 1.2e-7 of the command. If `slew·dt` is
-    /// smaller, a sample moves the command by one spacing or not at all.
+    /// In `f32`, the spacing of neighbouring floats is up to 1.2e-7 of the command. If `slew·dt` is
+    /// smaller than this spacing, a sample moves the command by one spacing or not at all.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"slew"`.
@@ -93,9 +93,9 @@ impl<T: Real> Limits<T> {
 
     /// The command nearest to `wanted` that is reachable from `last` within `dt` \[s\].
     ///
-    /// The result always lies within the range, even if `last` does not, and within `slew·dt` of
-    /// `last` if the range permits. If `wanted` is NaN, the result is NaN. If `last` is NaN, the
-    /// slew-rate limit has no effect.
+    /// The result lies within the range, even if `last` does not, and within `slew·dt` of `last` if
+    /// the range permits. If `wanted` is NaN, the result is NaN. If `last` is NaN, the slew-rate
+    /// limit has no effect.
     #[inline]
     #[must_use]
     pub fn apply(&self, last: T, wanted: T, dt: T) -> T {

@@ -5,14 +5,16 @@
 //! Call `step` once per sample with the time since the last call; this time may vary.
 //!
 //! **Bad samples.** A sample is bad if
-//! - a measurement, the reference or `dt` is NaN or infinite, or
-//! - `dt` is not positive or exceeds the longest `dt` of the configuration.
+//! - a number that the controller reads is NaN or infinite,
+//! - `dt` is not positive or exceeds the longest `dt` of the configuration, or
+//! - the command overflows.
 //!
-//! A bad sample leaves the state unchanged and holds the last good command. The [`Status`] reports
-//! the bad input. After too many bad samples, the [`Fallback`] applies its safe command and latches
-//! it until [`acknowledge`](Controller::acknowledge) is called. The command is finite and within
-//! the [`Limits`] for any state. To reject finite but implausible numbers, pass each input through
-//! [`signal::Plausible`](crate::signal::Plausible).
+//! A bad sample holds the last good command. It leaves the state unchanged, except for the fault
+//! counter and the time of the bad samples. The [`Status`] reports the bad input. After too many
+//! bad samples, the [`Fallback`] of a [`Pid`], [`Adaptive`] or [`Relay`] applies its safe command.
+//! It latches this command until [`acknowledge`](Controller::acknowledge) is called. The command of
+//! these three is finite and within the [`Limits`] for any state. To reject finite but implausible
+//! numbers, pass each input through [`signal::Plausible`](crate::signal::Plausible).
 //!
 //! **In flash.** [`constant!`](crate::constant) makes a checked `static` or `const` of every
 //! configuration except a [`Compensator`], which contains a [`Model`](crate::model::Model).
@@ -21,7 +23,7 @@
 //! |---|---|---|
 //! | [`Pid`] | PI, PID, PIV | (14)-(16) |
 //! | [`Adaptive`] | robust adaptive law with any number of regressors | (17)-(26) |
-//! | [`Compensator`] | inverse of the identified model as a feed-forward | (5)-(7) |
+//! | [`Compensator`] | inverse of the identified model as a feed-forward | (1)-(2), (5)-(7) |
 //! | [`DisturbanceObserver`] | estimate and compensation of friction and load | |
 //! | [`IterativeLearning`] | feed-forward from the error of earlier cycles of a repeating task | |
 //! | [`Relay`] | relay experiment that measures the ultimate gain and period, for PI gains | |

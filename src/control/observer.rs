@@ -180,7 +180,8 @@ impl<T: Real> DisturbanceObserver<T> {
     /// Call this method at every sample, before the controller. A sample is bad if `dt` is not
     /// positive or too long, or if the command or the output is not finite. A bad sample holds the
     /// estimate, and its `dt` is added to the next `dt`. If the `dt` itself is unusable, the next
-    /// `dt` counts twice. For any state, the estimate is finite and within ±limit.
+    /// `dt` counts twice. If the estimate overflows, it is held, and the lags restart at the next
+    /// good sample. For any state, the estimate is finite and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Output<T> {
         let status = if self.advance(state, at) {

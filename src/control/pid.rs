@@ -81,7 +81,7 @@ impl<T: Real> Pid<T> {
     /// The PID of Nguyen et al. (2018), Table 1: `k_d` = 2, without command limits.
     ///
     /// The paper does not specify a derivative filter. Here, the time constant is 0.1 s. On the
-    /// reference rig, the loop diverges with a time constant below 20 ms.
+    /// reference rig at 1 kHz, the loop may diverge with a time constant below 15 ms.
     pub fn paper_pid() -> Self {
         Self::assumed(PidSettings {
             k_d: T::from_f64(2.0),
@@ -182,11 +182,15 @@ impl<T: Real> Pid<T> {
     /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
-    /// start then continue from the applied command. With back-calculation and a known applied
-    /// command, the integral is corrected by the part that the drive cut off. In all other cases
-    /// except [`AntiWindup::None`], the last change of the integral is reversed as far as it
-    /// exceeds the drive's limit. The next command still contains the full demand, so the loop
-    /// recovers as soon as the drive does. See [`Applied`].
+    /// start then continue from a known applied command:
+    /// - Back-calculation feeds the part that the drive cut off back to the integral at the next
+    ///   sample. The same applies to [`AntiWindup::Conditional`] with a slew-rate limit.
+    /// - With [`AntiWindup::None`], the integral does not change.
+    /// - In all other cases, the last change of the integral is reversed as far as it exceeds the
+    ///   drive's limit. If the applied command is unknown, the whole change is reversed.
+    ///
+    /// The next command still contains the full demand, so the loop recovers as soon as the drive
+    /// does. See [`Applied`].
     pub fn applied(&self, state: &mut PidState<T>, applied: Applied<T>) {
         let out = state.command();
         let (less, sent) = match applied {

@@ -13,7 +13,7 @@
 //!
 //! - **Describing function.** The formula uses only the first harmonic of the command. Compared
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
-//!   with delay, the error is between −19 % (short delay) and +28 % (long delay). It is −11 % if
+//!   with delay, the error is between −19 % (short delay) and +27 % (long delay). It is −11 % if
 //!   the delay equals the time constant.
 //! - **Hysteresis.** A hysteresis makes T_u too long and k_u too low, which is conservative. With
 //!   eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is several times eps.

@@ -28,7 +28,8 @@ crate::data! {
         /// Too many bad samples: the safe command is applied until
         /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
         ///
-        /// The value is the fault of the last of these samples.
+        /// The value is the fault of the last of these samples, or the reason for the failure of a
+        /// [`Relay`](crate::control::Relay) experiment.
         Safe(Fault),
     }
 }
@@ -48,9 +49,10 @@ crate::checked::stored! {
     /// The safe command after repeated bad samples.
     ///
     /// A bad sample adds `weight` to a fault counter, and a good sample subtracts 1. When the
-    /// counter reaches `after·weight`, the safe command is applied and latched. This happens
+    /// counter reaches `after·weight`, the safe command is applied and latched. This happens at the
+    /// latest
     /// - at the `after`-th consecutive bad sample, and
-    /// - at the latest after n samples of which B are bad, if `(weight + 1)·B − n ≥ after·weight`.
+    /// - after n samples of which B are bad, if `(weight + 1)·B − n ≥ after·weight`.
     ///
     /// With a weight of 4, the second condition is met if more than one sample in five is bad for
     /// long enough.
@@ -107,7 +109,8 @@ crate::checked! {
 
     /// The same fallback with `weight` good samples to cancel a bad sample; default: 4.
     ///
-    /// With a weight of 1, every second sample may be bad without triggering the safe command.
+    /// With a weight of 1, every second sample may be bad without triggering the safe command, if
+    /// `after` is at least 2.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"` if `weight` is zero.
@@ -206,18 +209,18 @@ crate::data! {
     /// [`IterativeLearning`](super::IterativeLearning), set `learns`.
     ///
     /// Report `AsCommanded` if the drive deviates slightly from the command for a reason other than
-    /// a limit (an offset, a measured current). `Command` with such a value would stop the integral
-    /// until the difference is zero.
+    /// a limit (an offset, a measured current). `Command` with such a value would stop or shift the
+    /// integral until the difference is zero.
     pub enum Applied<T> {
         /// The drive applied the command.
         AsCommanded,
         /// The drive applied this command \[command unit\]; a number that is not finite is ignored.
         Command(T),
         /// The drive applied an unknown command below the requested one. The integral does not
-        /// rise.
+        /// rise, except with [`AntiWindup::None`](super::AntiWindup::None).
         AtUpperLimit,
         /// The drive applied an unknown command above the requested one. The integral does not
-        /// fall.
+        /// fall, except with [`AntiWindup::None`](super::AntiWindup::None).
         AtLowerLimit,
     }
 }

@@ -198,7 +198,8 @@ effect! {
     ///
     /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. The initial state is the first x.
     /// Several elements with time constants a decade apart approximate the logarithmic creep of
-    /// polymers and piezo stacks.
+    /// polymers and piezo stacks. In `f32`, the rounding error of a [`Lag`](super::Lag) also limits
+    /// tau/dt here.
     ///
     /// Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
     /// creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
@@ -368,9 +369,10 @@ effect! {
     ///
     /// The gain is the delay T \[s\]. The output passes through the first-order all-pass filter
     /// `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. The filter has magnitude 1
-    /// at every frequency, and is exact for `T = dt`. At the angular frequency w, the relative
-    /// error of the delay is `(w·T)²/12` or, for a T below dt, `(w·dt)²/12`. The first sample is
-    /// not delayed. A negative T advances the output by the first-order term of its Taylor series.
+    /// at every frequency, and is exact for `T = dt`. At the low angular frequency w, the relative
+    /// error of the delay is at most `(w·T)²/12` or, for a T below dt, `(w·dt)²/12`. The first
+    /// sample is not delayed. A negative T advances the output by the first-order term of its
+    /// Taylor series.
     ///
     /// The regressor is the derivative with respect to T at T = 0, `−d(output)/dt`, computed as a
     /// backward difference. This effect is an output stage: it reads the sum of all terms before

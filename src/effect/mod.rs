@@ -285,8 +285,8 @@ impl<T: Real> Effect<T> {
     /// for a delay.
     ///
     /// The gain of a [`Delay`] is a time, and the contribution is the delayed output minus the
-    /// output. This contribution is not linear in the gain. Numbers that overflow or are not finite
-    /// have the same consequences as for [`regressor`](Self::regressor).
+    /// output. For a positive gain, this contribution is not linear in the gain. Numbers that
+    /// overflow or are not finite have the same consequences as for [`regressor`](Self::regressor).
     ///
     /// ```
     /// use bowden::effect::{Delay, Effect, EffectState, Inputs};

@@ -107,8 +107,8 @@ impl<T: Real> BoucWen<T> {
 
     /// Eta after an increment of the input [input unit] of any size.
     ///
-    /// An `eta` outside [-1, 1] is clamped first. After any finite, nonzero increment,
-    /// `|eta| <= 1`. An increment that is not finite returns `eta` unchanged. This function is
+    /// After any finite, nonzero increment, `|eta| <= 1`: an `eta` outside [-1, 1] is clamped
+    /// first. An increment that is not finite returns `eta` unchanged. This function is
     /// [`advance_bounded`](Self::advance_bounded) for `f32` and
     /// [`advance_split`](Self::advance_split) for `f64`.
     #[inline]

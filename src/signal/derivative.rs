@@ -13,7 +13,7 @@ crate::checked::stored! {
     /// ```
     /// use bowden::signal::{Derivative, DerivativeState};
     /// # fn main() -> Result<(), bowden::Error> {
-    /// let derivative = Derivative::try_new(0.01)?; // \[s\]
+    /// let derivative = Derivative::try_new(0.01)?; // [s]
     /// let mut state = DerivativeState::new();
     /// for k in 0..200 {
     ///     derivative.step(&mut state, 3.0 * 1e-3 * f64::from(k), 1e-3);
@@ -61,9 +61,10 @@ impl<T: Real> Derivative<T> {
 
     /// The filtered rate [signal unit/s] at a sample taken `dt` \[s\] after the last one.
     ///
-    /// A sample is bad if it is not finite, if `dt` is not positive and finite, or if the result
-    /// overflows. A bad sample leaves the state unchanged and returns the last rate. The state does
-    /// not store the time of a bad sample. Add this time to the `dt` of the next good sample, as
+    /// The first finite sample only starts the filter, whatever its `dt`. After that, a sample is
+    /// bad if it is not finite, if `dt` is not positive and finite, or if the result overflows. A
+    /// bad sample leaves the state unchanged and returns the last rate. The state does not store
+    /// the time of a bad sample. Add this time to the `dt` of the next good sample, as
     /// [`Rates`](crate::signal::Rates) does. Otherwise, the computed rate of a moving signal is too
     /// large.
     #[inline]

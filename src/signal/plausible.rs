@@ -129,9 +129,9 @@ crate::checked! {
     ///
     /// Include the jitter of the sensor and of its bus. The check then assumes that every reading
     /// is at most this old, and the next reading may differ by `rate·(sample_period + dt)`. The
-    /// same difference is the largest spike that the check accepts. This difference depends neither
-    /// on the number of repetitions nor on the phase between sensor and loop. Without a rate limit,
-    /// this setting has no effect.
+    /// same difference is the largest spike that the check accepts directly after a plausible
+    /// sample. This difference depends neither on the number of repetitions nor on the phase
+    /// between sensor and loop. Without a rate limit, this setting has no effect.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -157,7 +157,8 @@ crate::checked! {
     /// The same check with a longest `dt` \[s\], which replaces a longer or unusable `dt`.
     ///
     /// A timer that wraps may report a negative `dt`, or a `dt` of an hour. Without this setting,
-    /// the check would then accept one spike of any size, and reject the true samples after it.
+    /// the check would then accept one spike anywhere in the range, and reject the true samples
+    /// after it.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -189,11 +190,11 @@ impl<T: Real> Plausible<T> {
     /// Set `moves` if the machine moves, so that the signal must change, for example if the command
     /// or another sensor has changed.
     ///
-    /// A `dt` of zero adds no time, so with a rate limit the sample after a change must have the
-    /// same value. The longest `dt` (see [`with_longest_dt`](Self::with_longest_dt)) replaces a
-    /// `dt` that is negative, NaN or infinite. Without that setting the time is unknown, and any
-    /// sample in the range is plausible until the reading changes. A sample that is not finite is
-    /// never plausible.
+    /// A `dt` of zero adds no time. With a rate limit and without a sample period, the sample after
+    /// a change must then have the same value. The longest `dt` (see
+    /// [`with_longest_dt`](Self::with_longest_dt)) replaces a `dt` that is negative, NaN or
+    /// infinite. Without that setting the time is unknown, and any sample in the range is plausible
+    /// until the reading changes. A sample that is not finite is never plausible.
     #[inline]
     pub fn step(
         &self,

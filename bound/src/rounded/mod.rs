@@ -32,9 +32,9 @@ use gains::Gains;
 ///
 /// **Command limits that may be active.** By the eighth inequality, no command in the box exceeds
 /// the limits. If this inequality fails, the three inequalities of
-/// [`at_the_limit`](Self::at_the_limit) are sufficient instead. While the command saturates, z is
-/// frozen. If the limits allow a command that holds the reference against the load, the box is the
-/// same (`theorems/Limit.v`).
+/// [`at_the_limit`](Self::at_the_limit) are sufficient instead. While the command saturates, z does
+/// not move further towards the limit. If the limits allow a command that holds the reference
+/// against the load, the box is the same (`theorems/Limit.v`).
 ///
 /// **A slew-rate limit must not be active.** By the inequality [`slew`](Self::slew), every step
 /// from the box changes the command by less than the slew-rate limit allows (`theorems/Slew.v`).

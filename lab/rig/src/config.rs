@@ -7,8 +7,10 @@ use bowden::{Error, Real};
 /// Parameters of a rig. Published results refer to [`RigConfig::reference`].
 ///
 /// [`Rig::try_new`](super::Rig::try_new) checks the fields. All fields must be finite. Inertias,
-/// stiffnesses, lags (except `velocity_lag`), ranges and counts must be positive. Dampings, noise
-/// and `velocity_lag` must not be negative. The sub-step h must resolve the vibration of the cable:
+/// stiffnesses, lags (except `velocity_lag`), ranges, counts, `sub_step` and `drift.time` must be
+/// positive. Dampings, noise and `velocity_lag` must not be negative. rho, sigma and n are checked
+/// by [`BoucWen::try_new`](bowden::hysteresis::BoucWen::try_new), and `delay` is at most
+/// [`MOST_DELAY`](super::MOST_DELAY). The sub-step h must resolve the vibration of the cable:
 /// `2·h·c/m + h²·k/m <= 1`. At 4, the integration becomes unstable.
 ///
 /// ```

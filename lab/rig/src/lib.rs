@@ -8,7 +8,7 @@
 //! th2·w_p'     = tau_m − th1·w_p − tau_i                     motor and proximal pulley
 //! tau_i        = K_c·(phi_p − phi_d) + c_c·(w_p − w_d)       stretch of the cable
 //! tau_o        = B·tau_i − kappa_eta·eta − T0 + Σ g·effect   (6), (7), undeclared effects
-//! J_d·w_d'     = tau_o − K·phi_d − c_d·w_d + load            joint against its spring (12)
+//! J_d·w_d'     = tau_o − K·phi_d − c_d·w_d + load            joint against its spring, as (4)
 //! ```
 //!
 //! The integration uses short sub-steps and computes velocities before positions. The torque
@@ -66,7 +66,7 @@ const MOST_SUB_STEPS: u32 = 4000;
 ///     let now = state.sample();
 ///     let error = now.measured - reference.at(now.time);
 ///     integral += error * 1e-3;
-///     rig.step(&mut state, -30.0 * error - 18.0 * integral, 1e-3); // (14), Table 1
+///     rig.step(&mut state, -30.0 * error - 18.0 * integral, 1e-3); // (15), Table 1
 ///     if now.time > 3.0 {
 ///         worst = worst.max((now.tau_o - reference.at(now.time)).abs());
 ///     }
@@ -204,7 +204,8 @@ impl<T: Real, const N: usize> Rig<T, N> {
         self.plant.undeclared()
     }
 
-    /// The state at rest. All torques are zero, and the sensors have been read once.
+    /// The state at rest. All torques are zero, except that the distal torque is −T0. The sensors
+    /// have been read once.
     #[must_use]
     pub fn start(&self, seed: u64) -> RigState<T, N> {
         let mut state = RigState {

@@ -47,7 +47,7 @@ impl Noise {
         uniform(self.bits())
     }
 
-    /// A normal deviate with mean zero and variance one; its magnitude is at most 8.6.
+    /// A normal deviate with mean zero and variance one; its magnitude is at most 12.1.
     ///
     /// All arithmetic uses `T`. In `f32`, the deviate equals that in `f64` except for a rounding
     /// error of up to 3e-4 near zero. About once in ten million deviates, rounding moves a point

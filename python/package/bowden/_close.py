@@ -56,9 +56,9 @@ def identify(
       :class:`bowden.Record`, or the path of a file (CSV, JSON, .xlsx, .mat v5 or v7.3, Parquet,
       .npz or .npy; gzip is allowed).
     * a list of such records of one rig, for one joint model. Of three or more records, the last
-      one is held out as a whole.
+      one is held out as a whole, unless ``per_file`` is given.
 
-    Options of the program `bowden identify`, with the same names:
+    Options of the program `bowden identify`, with the same names (``channels`` is ``--channel``):
 
     channels
         Further channels by name (``phi_p``, ``phi_d``, ``temperature``, ``load``, or any other).
@@ -91,7 +91,7 @@ def identify(
     max_terms, time_limit
         Maximum number of added terms (0 to 8); time limit of the search [s].
     per_file
-        ``"gains"``: the gains may differ between files.
+        ``"gains"``: the gains may differ between files. The end of each file is then held out.
     invertible
         Restrict the exported model to models that a feed-forward can invert.
 
@@ -106,9 +106,9 @@ def identify(
     threads
         Number of threads; default: all threads of the machine. The results do not depend on it.
     progress
-        ``True`` for a new tqdm bar, an existing tqdm bar, or a function. The function is called
-        with the completed fraction (``None`` if unknown) and the current task. An exception in the
-        function ends the call, and so does Ctrl-C.
+        ``True`` for a new tqdm bar (without tqdm: lines on stderr), an existing tqdm bar, or a
+        function. The function is called with the completed fraction (``None`` if unknown) and the
+        current task. An exception in the function ends the call, and so does Ctrl-C.
 
     Raises :class:`bowden.Error`.
     """

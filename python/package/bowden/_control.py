@@ -54,9 +54,10 @@ class Controller(Changing):
     Each setting is also a read-only attribute. :meth:`bumpless_transfer` changes the settings of a
     running controller without a jump of the command.
 
-    The defaults are for a simulation. Without ``limits`` any command is applied, without
-    ``longest_dt`` any positive ``dt`` is good, and without ``fallback`` the last good command is
-    held indefinitely. A machine needs all three settings.
+    The defaults are for a simulation. Without ``limits`` any finite command is applied, and without
+    ``fallback`` the last good command is held indefinitely. Without ``longest_dt`` any positive
+    ``dt`` is good, except that the first-order adaptive law has its own limit. A machine needs all
+    three settings.
 
     The estimate of the ``observer`` and the feed-forward of ``learning`` are added to the command
     of each lane before its limits.

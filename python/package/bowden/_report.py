@@ -197,7 +197,7 @@ class Report(_Found):
 
     @property
     def names(self) -> list[str]:
-        """The effects in the final model, in the order in which they were found."""
+        """The effects that were added to the baseline model, in the order of their discovery."""
         return [str(found.effect) for found in self.terms]
 
     def _numbers(self) -> str:

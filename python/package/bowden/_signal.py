@@ -291,7 +291,7 @@ class Plausible(Block):
     stuck_after: Any = setting(
         default=None,
         convert=count(2**32 - 1),
-        doc="Number of consecutive equal samples, while the machine moves, that indicate a stuck "
+        doc="Number of repetitions of a reading, while the machine moves, that indicate a stuck "
         "sensor; 0 or None: no check.",
     )
     sample_period: Any = setting(

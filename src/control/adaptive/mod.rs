@@ -44,7 +44,7 @@ use crate::Real;
 /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 /// let law = Adaptive::<f32, 2>::paper();
 /// let mut state = AdaptiveState::new(&law);
-/// // dt \[s\], reference and measured torque [N·m], velocity and acceleration.
+/// // dt [s], reference and measured torque [N·m], velocity and acceleration.
 /// let input = AdaptiveInput::new(0.001, 25.0, 24.7, [0.1, -0.3]);
 /// let output = law.step(&mut state, &input);
 /// assert_eq!(output.command, 0.0); // beta_hat starts at zero

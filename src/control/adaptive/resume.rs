@@ -23,7 +23,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
     /// use bowden::control::{Estimator, Form};
-    /// let literal = Form::AsPublished { time_constant: 0.005 }; // \[s\]
+    /// let literal = Form::AsPublished { time_constant: 0.005 }; // [s]
     /// let law = Adaptive::try_new(AdaptiveSettings {
     ///     beta: Estimator::fixed(1.2).within(0.5, 2.0),
     ///     delta: Estimator::fixed(7.0).within(0.0, 7.0),
@@ -81,7 +81,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     ///
     /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
     /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
-    /// `input.dt` is ignored.
+    ///
+    /// `input.dt` is not checked. The first-order form computes the rate of the reference with it,
+    /// so pass the sampling period. If this `dt` is zero or NaN, the next command is not `output`.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

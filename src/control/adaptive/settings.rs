@@ -13,8 +13,8 @@ crate::data! {
         /// Equation (23) as published, with e' as a filtered difference of the error.
         ///
         /// This form is for a plant with inertia, whose output cannot follow the command at once.
-        /// On a static plant with one sample of delay, it diverges unless
-        /// `g·(k + 2/(lambda·h)) < 1` with g = alpha·beta_hat.
+        /// On a static plant with one sample of delay, it diverges unless `g·k < 1` with g =
+        /// alpha·beta_hat. Without the filter, the condition is `g·(k + 2/(lambda·h)) < 1`.
         AsPublished {
             /// Time constant of the filter of e' \[s\], not negative; usually 2 to 20 ms.
             time_constant: T,
@@ -56,7 +56,7 @@ crate::data! {
     ///     beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
     ///     delta: Estimator::fixed(1.0).within(0.0, 7.0).adapting(6e-3, 0.01),
     ///     ..AdaptiveSettings::<f64, 2>::unlimited(
-    ///         Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, // \[s\], [N·m/command unit]
+    ///         Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, // [s], [N·m/command unit]
     ///         24.0, 8.0, 0.05,
     ///     )
     /// };
@@ -76,7 +76,7 @@ crate::data! {
         /// epsilon \[N·m\], positive: width of the smoothed sign function.
         ///
         /// With one sample of delay, epsilon should be at least 1/40 of the largest delta_hat;
-        /// otherwise the command chatters.
+        /// otherwise the command may chatter.
         pub epsilon: T,
         /// The smoothed sign function in (23) and (25).
         #[cfg_attr(feature = "serde", serde(default))]

@@ -16,7 +16,8 @@ pub struct AdaptiveInput<T, const N: usize> {
     pub dt: T,
     /// Reference y_r \[N·m\].
     pub reference: T,
-    /// Reference at the next sample \[N·m\]; only the first-order form reads it.
+    /// Reference at the next sample \[N·m\]. Only the first-order form uses the value, but both
+    /// forms reject a value that is not finite.
     pub next_reference: T,
     /// Measured output torque y \[N·m\].
     pub measured: T,
@@ -31,7 +32,7 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
     ///
     /// ```
     /// use bowden::control::AdaptiveInput;
-    /// let input = AdaptiveInput::new(0.001, 25.0, 24.8, [0.1, 0.0]); // \[s\], [N·m], [N·m]
+    /// let input = AdaptiveInput::new(0.001, 25.0, 24.8, [0.1, 0.0]); // [s], [N·m], [N·m]
     /// assert_eq!((input.next_reference, input.feed_forward), (25.0, 0.0));
     /// ```
     pub const fn new(dt: T, reference: T, measured: T, regressors: [T; N]) -> Self {
@@ -48,8 +49,8 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
 
 /// All terms of the adaptive law in one step, and the estimates that the step used.
 ///
-/// After a bad sample or a dropped regressor ([`Degraded`](crate::control::Status::Degraded)), `z`
-/// and the estimates are the values in the state, and the other terms are zero.
+/// If the status is not [`Good`](crate::control::Status::Good), for example after a bad sample or a
+/// dropped regressor, `z` and the estimates are the values in the state. The other terms are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -72,7 +73,7 @@ pub struct AdaptiveTerms<T, const N: usize> {
     pub feed_forward: T,
     /// Command with feed-forward, before the limits \[command unit\].
     pub unlimited: T,
-    /// Whether a limit has changed the command.
+    /// Whether a limit has changed the command; always `false` in [`Adaptive::terms`].
     pub limited: bool,
     /// beta_hat \[command unit/(N·m)\].
     pub beta_hat: T,
@@ -194,9 +195,9 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
     /// Call this method between two steps. The slew-rate limit and the first-order form then
-    /// continue from the applied command. At the next good sample, z does not move further towards
-    /// the limit of the drive. The estimates do not change if s requires more than this limit
-    /// allows. See [`Applied`].
+    /// continue from the applied command, if it is known. At the next good sample, z does not move
+    /// further towards the limit of the drive. At this sample, the estimates do not change if s
+    /// requires more than the limit allows. See [`Applied`].
     pub fn applied(&mut self, applied: Applied<T>) {
         let out = self.held.command;
         self.drive = match applied {

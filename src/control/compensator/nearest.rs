@@ -48,8 +48,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// For this command, the identified model does not produce exactly the desired output. To
     /// measure the error, run the feed-forward and the identified model in series, as
-    /// `examples/nearest.rs` does. A model that is fitted within the bound has a smaller error than
-    /// a model that is changed afterwards.
+    /// `examples/nearest.rs` does. A model that is fitted within the bound usually has a smaller
+    /// error than a model that is changed afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;

@@ -56,7 +56,7 @@ crate::data! {
         pub agreement: T,
         /// Maximum duration of the experiment, at least `longest_dt` \[s\].
         ///
-        /// Rounding may end the experiment early, after n samples by at most n/2³² of this
+        /// Rounding may end the experiment early, after n samples by up to about n/2³² of this
         /// duration.
         pub longest_time: T,
         /// Longest `dt` of a good sample \[s\], positive; for example, five sampling periods.

@@ -34,7 +34,7 @@ crate::data! {
         ///
         /// For lags, with and without delay, the gain margin is above 2.5 and the phase margin is
         /// above 45°. This includes the error of the describing function, which may give a k_u that
-        /// is 28 % too high. B. Tyreus, W. Luyben, "Tuning PI controllers for integrator/dead time
+        /// is 27 % too high. B. Tyreus, W. Luyben, "Tuning PI controllers for integrator/dead time
         /// processes", *Ind. Eng. Chem. Res.* 31, 1992.
         #[default]
         TyreusLuyben,
