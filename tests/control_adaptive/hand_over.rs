@@ -22,12 +22,19 @@ fn a_resumed_law_starts_from_the_output_it_is_given() {
             })
             .unwrap();
             let output = random.within(-40.0, 40.0);
+            let reference = random.within(0.0, 30.0);
             let input = AdaptiveInput {
                 feed_forward: random.within(-10.0, 10.0),
-                ..AdaptiveInput::new(0.001, random.within(0.0, 30.0), 12.0, [0.4])
+                next_reference: reference + random.within(-0.01, 0.01),
+                ..AdaptiveInput::new(0.001, reference, 12.0, [0.4])
             };
             let mut state = AdaptiveState::resume_from(&law, output, &input);
             assert!(law.is_valid(&state));
+            // No time passes at a resume: without a dt, the step of the form gives the rate.
+            for dt in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
+                let input = AdaptiveInput { dt, ..input };
+                assert_eq!(AdaptiveState::resume_from(&law, output, &input), state);
+            }
             // z is found to its last bit, times k·lambda + 1/lambda = 192.
             let command = law.step(&mut state, &input).command;
             assert!((command - output).abs() < 1e-11, "{command} {output}");

@@ -2,7 +2,7 @@
 
 use super::{Adaptive, AdaptiveInput, AdaptiveState, AdaptiveTerms};
 use crate::control::status::Held;
-use crate::control::{law, Fault, Status};
+use crate::control::{law, Fault, Form, Status};
 use crate::signal::{clamp, Compensated, DerivativeState};
 use crate::Real;
 
@@ -82,8 +82,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
     /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
     ///
-    /// `input.dt` is not checked. The first-order form computes the rate of the reference with it,
-    /// so pass the sampling period. If this `dt` is zero or NaN, the next command is not `output`.
+    /// The first-order form computes the rate of the reference with `input.dt`. If this `dt` is not
+    /// positive and finite, it uses the `step` of the form instead.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,
@@ -146,6 +146,14 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             error: law::error(input.measured, input.reference),
             ..AdaptiveTerms::at_rest(state)
         };
+        // No time passes here: the sample may have no dt.
+        let dt = match settings.form {
+            Form::FirstOrder { step, .. } if !(input.dt > T::zero() && input.dt.is_finite()) => {
+                step
+            }
+            _ => input.dt,
+        };
+        let input = &AdaptiveInput { dt, ..*input };
         // ubar falls with z, and is linear in z but for the smooth sign, which lies
         // within [-1, 1]: that brackets the answer.
         let slope = settings.gain * settings.lambda + T::one() / settings.lambda;
