@@ -55,6 +55,8 @@ pub struct RmsSampled<T> {
     gain: T,
     lambda: T,
     step: T,
+    /// Largest weight of an estimate in V, `1 + h·sigma`; at least 2, which covers s and z.
+    weight: T,
     /// Without its true value, which is the target. `None` if delta_hat is constant.
     adapting: Option<Adapting<T>>,
 }
@@ -80,6 +82,8 @@ impl<T: Real> RmsSampled<T> {
         if step * settings.lambda >= T::one() {
             return Err(Error::Inadmissible("h*lambda < 1"));
         }
+        let two = T::from_f64(2.0);
+        let mut weight = two;
         let leaking = [settings.beta, settings.delta];
         for estimator in leaking.iter().chain(&settings.theta) {
             if let Leakage::Switching { .. } = estimator.leakage {
@@ -87,8 +91,11 @@ impl<T: Real> RmsSampled<T> {
                     "the leakage of every estimate must be constant",
                 ));
             }
+            let own = T::one() + step * estimator.leakage.rate();
+            if own > weight {
+                weight = own;
+            }
         }
-        let two = T::from_f64(2.0);
         let deltas = range(&settings.delta, settings.frozen);
         let stays = deltas.low == deltas.high;
         let highest = if deltas.high < plant.delta || stays {
@@ -119,6 +126,7 @@ impl<T: Real> RmsSampled<T> {
             gain: settings.gain,
             lambda: settings.lambda,
             step,
+            weight,
             adapting,
         };
         if found.adapting.is_some() {
@@ -136,8 +144,7 @@ impl<T: Real> RmsSampled<T> {
         if let Some(delta) = self.aim(self.target) {
             v += delta.at_start();
         }
-        // V weighs each estimate by 1 + h·sigma, below two since h·rate <= 1.
-        self.aimed_at(self.target, T::from_f64(2.0) * v / duration)
+        self.aimed_at(self.target, self.weight * v / duration)
     }
 
     /// The bound over a long time as a certificate.

@@ -254,3 +254,29 @@ fn the_mean_square_of_the_error_stays_within_the_sampled_certificate() {
     println!("reached {reached} of the bound over a long time");
     assert!(reached > 0.02, "{reached}");
 }
+
+#[test]
+fn a_short_time_begins_with_the_whole_lyapunov_function() {
+    // A leakage beyond 1/h, which V weighs by 1 + h·sigma = 5.
+    let (k, lambda, h, gain, sigma) = (24.0, 8.0, 0.001, 0.5, 4000.0);
+    let form = Form::FirstOrder {
+        step: h,
+        plant_gain: 1.0,
+    };
+    let delta = Estimator::fixed(0.0)
+        .within(0.0, 7.056)
+        .adapting(gain, sigma);
+    let law = Adaptive::try_new(AdaptiveSettings {
+        beta: Estimator::fixed(1.0),
+        delta,
+        ..AdaptiveSettings::<f64, 0>::unlimited(form, k, lambda, 0.2)
+    })
+    .unwrap();
+    let found = RmsSampled::try_new(&law, &Plant::new(1.0, 7.056)).unwrap();
+    // In the limit, rms(s)² = V(0)/(k·lambda·T), with delta_hat at zero and its aim elsewhere.
+    let v = (1.0 + h * sigma) * found.target.powi(2) / (2.0 * gain);
+    assert!(v > 0.0, "the aim is {}", found.target);
+    let duration = 1e-12;
+    let s = (v / (k * lambda * duration)).sqrt();
+    assert!(found.over(duration, 0.0) >= s);
+}
