@@ -272,7 +272,7 @@ impl Source<'_> {
         };
         (
             self.warped(1.5 * self.seconds, pace),
-            format!("hold and wait: {go:.2} s of the recorded motion, then {hold:.2} s of rest, and so on"),
+            format!("hold and wait: {go:.2} s of the recorded motion and {hold:.2} s of rest, repeated"),
         )
     }
 }
