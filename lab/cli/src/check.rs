@@ -96,6 +96,7 @@ pub fn load(path: &Path) -> Result<String, Failure> {
         ));
     }
     let bytes = std::fs::read(path).map_err(|e| failed(&e))?;
-    String::from_utf8(bytes)
-        .map_err(|_| failed(&"the file is not text; give a TOML file written by `identify --model-out`"))
+    String::from_utf8(bytes).map_err(|_| {
+        failed(&"the file is not text; give a TOML file written by `identify --model-out`")
+    })
 }

@@ -134,7 +134,10 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
 fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
     for (index, (path, _)) in files.iter().enumerate() {
         if files.iter().take(index).any(|(other, _)| same(other, path)) {
-            return Err(format!("{}: this file would be written twice", path.display()));
+            return Err(format!(
+                "{}: this file would be written twice",
+                path.display()
+            ));
         }
     }
     let written = write_parts(files).and_then(|()| take_names(files));

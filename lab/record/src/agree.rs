@@ -119,7 +119,7 @@ fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<Stri
         _ => None,
     };
     let Some(factor) = known else {
-        let message = format!("the unit is {from}, but it must be {to}, as in {path}");
+        let message = format!("the column has {from}, but it must have {to}, as in {path}");
         return Err(RecordError::new(message).on(&other.name));
     };
     other.unit.clone_from(&first.unit);

@@ -52,9 +52,7 @@ pub(super) fn is_minutes(stamp: &str) -> bool {
 pub(super) fn restart(stamp: &str) -> &'static str {
     match (has_date(stamp), is_minutes(stamp)) {
         (true, _) => "",
-        (_, true) => {
-            "; if the record passes a full hour, write the hours too, as in 01:59:50.2"
-        }
+        (_, true) => "; if the record passes a full hour, write the hours too, as in 01:59:50.2",
         _ => "; if the record passes midnight, add a date",
     }
 }

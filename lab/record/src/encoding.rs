@@ -23,7 +23,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
     if bytes.is_empty() {
         return Err(RecordError::at(
             1,
-            "the file is empty, but it must begin with a header of column names",
+            "the file is empty, but a header with column names is needed",
         ));
     }
     let (text, note) = match wide(bytes) {

@@ -186,7 +186,7 @@ fn tell_apart(columns: &mut [Named]) {
 pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     let (text, before) = rows.rest();
     let refuse = |what: &str| {
-        let message = format!("the {what}, but it must be a header with column names");
+        let message = format!("the {what}, but a header with column names is needed");
         Err(RecordError::at(before + 1, message))
     };
     if text
@@ -259,7 +259,10 @@ pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Stri
 /// The error for a name that no column has.
 pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
     let meant = nearest(name, header.columns.iter().map(|c| c.name.as_str()));
-    let message = format!("no such column; the columns are {}{meant}; {hint}", header.list());
+    let message = format!(
+        "no such column; the columns are {}{meant}; {hint}",
+        header.list()
+    );
     RecordError::at(header.line, message).on(name)
 }
 

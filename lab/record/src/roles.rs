@@ -85,7 +85,10 @@ pub(super) fn of_any(header: &mut Header, options: &Options) -> Result<Roles, Re
     let time = time(header, options).ok();
     let mut others = (0..header.columns.len()).filter(|index| Some(*index) != time);
     let (Some(input), Some(output)) = (others.next(), others.next()) else {
-        return Err(RecordError::at(header.line, "the file has fewer than two columns"));
+        return Err(RecordError::at(
+            header.line,
+            "the file has fewer than two columns",
+        ));
     };
     Ok(Roles {
         mode: Mode::Torque,
@@ -178,7 +181,10 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
         Err(RecordError::at(header.line, message).on(&header.columns[index].name))
     };
     if input == output {
-        return refuse(input, "this column cannot be both input and output".to_owned());
+        return refuse(
+            input,
+            "this column cannot be both input and output".to_owned(),
+        );
     }
     if let Some(time) = time.filter(|time| *time == input || *time == output) {
         return refuse(

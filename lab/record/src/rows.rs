@@ -267,7 +267,11 @@ impl<'a> Reader<'a> {
         {
             return Ok(());
         }
-        let mut message = format!("the row has {} cells, but the header has {}", row.len(), columns.len());
+        let mut message = format!(
+            "the row has {} cells, but the header has {}",
+            row.len(),
+            columns.len()
+        );
         if row.last > row.line {
             message += &format!("; a quote extends the row to line {}", row.last);
         }
@@ -395,6 +399,8 @@ fn long_enough(left: usize, clock: &Clock, why: &str, line: usize) -> Result<(),
         ),
         false => String::new(),
     };
-    let message = format!("the record is too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}");
+    let message = format!(
+        "the record is too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}"
+    );
     Err(RecordError::at(line, message))
 }

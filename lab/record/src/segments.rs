@@ -29,7 +29,7 @@ pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a
         }
     };
     if let Some(other) = own.iter().find(|own| !own.is_alike) {
-        let message = "the column names are repeated, but the lines below them differ from those below the first ones; put the records into separate files";
+        let message = "the column names are repeated, but the lines below them differ from the lines below the first names; write the records to separate files";
         return Err(RecordError::at(other.place.names, message));
     }
     match (own.as_slice(), options.rate) {

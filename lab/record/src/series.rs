@@ -96,7 +96,7 @@ impl Series {
             None => Err(RecordError::at(
                 header.line,
                 format!(
-                    "the unit is {}, but it must be {}, as for `{}`, so that the two can be added or subtracted",
+                    "the column has {}, but it must have {}, as `{}` has, so that the two can be added or subtracted",
                     unit(&b.unit),
                     unit(&a.unit),
                     shown(&a.name, NAME_LENGTH)

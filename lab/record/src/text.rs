@@ -199,9 +199,7 @@ impl<'a> Rows<'a> {
             ));
         }
         if length > PIECES + 1 {
-            return refuse(format!(
-                "a quote is not closed within {PIECES} bytes"
-            ));
+            return refuse(format!("a quote is not closed within {PIECES} bytes"));
         }
         if length > rest.len() + 1 {
             return refuse("a quote is not closed before the end of the file".to_owned());

@@ -266,7 +266,7 @@ impl Clock {
             Some((name, asked)) => {
                 let start = match first.abs() > NO_STAMP {
                     true => format!(
-                        "; the first stamp would be {first:.3e} s, which is thousands of years"
+                        "; in s, the first time stamp of {first:.3e} would be thousands of years"
                     ),
                     false => String::new(),
                 };

@@ -40,7 +40,7 @@ pub(super) fn read(bytes: &[u8], options: &Options) -> Result<Sheet, RecordError
         |why: &str| RecordError::new(format!("the workbook is damaged: {}", shown(why, 200)));
     let size = npz::unpacked_size(bytes).map_err(RecordError::new)?;
     if size > BYTES {
-        return Err(too_large(" unpacked"));
+        return Err(too_large(" when unpacked"));
     }
     match catch_unwind(AssertUnwindSafe(|| chosen(bytes, options))) {
         Ok(Ok(sheet)) => Ok(sheet),
@@ -153,7 +153,7 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         lines.push_str(&value);
         counts[row] = column + 1;
         if lines.len() as u64 > BYTES {
-            return Err(Failure::Refused(too_large(" unpacked")));
+            return Err(Failure::Refused(too_large(" when unpacked")));
         }
     }
     let width = counts.iter().copied().max().unwrap_or(0).max(1);

@@ -44,7 +44,9 @@ impl Running {
                     ))
                 }
                 (None, _) => {
-                    return refuse(format!("effect `{name}`: the record has no channel `{given}`"))
+                    return refuse(format!(
+                        "effect `{name}`: the record has no channel `{given}`"
+                    ))
                 }
             },
         };

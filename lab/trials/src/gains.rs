@@ -112,7 +112,11 @@ impl GainsFile {
             (d.noise, "noise", false),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let what = if above { "positive" } else { "zero or positive" };
+                let what = if above {
+                    "positive"
+                } else {
+                    "zero or positive"
+                };
                 let line = format!("[design]: {name} {value}: must be a finite number, {what}");
                 return Err(at(text, label, "design", name, &line));
             }

@@ -66,9 +66,9 @@ impl Heading {
             });
             all.push(match of_another {
                 None => format!("Gains: from {gains}."),
-                Some(other) => format!(
-                    "Gains: from {gains}, designed for {other} and not for this model."
-                ),
+                Some(other) => {
+                    format!("Gains: from {gains}, designed for {other} and not for this model.")
+                }
             });
         }
         if let Some(designed) = self.designed_drive_gain {

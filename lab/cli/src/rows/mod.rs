@@ -58,9 +58,7 @@ impl Rows {
             ));
         }
         match self.workers {
-            Some(workers) => Err(format!(
-                "--workers {workers} needs --glob"
-            )),
+            Some(workers) => Err(format!("--workers {workers} needs --glob")),
             None => Ok(()),
         }
     }
@@ -121,8 +119,8 @@ fn one(file: &Path, asked: &Asked) -> Row {
 
 /// The rows of all records, in their order.
 fn all(files: &[PathBuf], workers: Option<NonZeroUsize>) -> Result<Vec<Row>, Failure> {
-    let program =
-        std::env::current_exe().map_err(|e| format!("cannot find the executable of this program: {e}"))?;
+    let program = std::env::current_exe()
+        .map_err(|e| format!("cannot find the executable of this program: {e}"))?;
     let processors = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let workers = workers.map_or_else(processors, NonZeroUsize::get);
     let bar = progress(files.len());

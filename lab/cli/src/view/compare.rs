@@ -258,7 +258,7 @@ const OF_CONTROLLERS: [(&str, &str); 5] = [
     ("pi-observer", "a PI with lower gains and a disturbance observer, without a friction model. `bowden certify` prints the range of plants for which the loop is stable."),
     ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is the given value, and neither adapts."),
     ("adaptive-feed-forward", "the adaptive law plus a feed-forward, which is the inverse of the rig's own transmission or of the given model."),
-    ("pi-learning", "the PI of Nguyen et al. (2018) plus iterative learning: a correction for each cell of the cycle, computed with the inverse of the nominal plant. It needs the phase of the cycle, and learns in five to twenty cycles."),
+    ("pi-learning", "the PI of Nguyen et al. (2018) plus iterative learning: a correction for each cell of the cycle, computed with the inverse of the nominal plant. It needs the phase of the cycle and takes five to twenty cycles to learn."),
 ];
 
 const OF_COLUMNS: [&str; 3] = [

@@ -233,7 +233,7 @@ fn details(designed: &Designed) -> Vec<String> {
         "the plant model includes the transmission and the delay, but not the inertia or the spring of a joint".to_owned(),
         "reference: no rate is guaranteed if the smallest slope is near zero or negative".to_owned(),
         "slope: between B and B - kappa_eta·rho·max(1, 2·sigma), from the Bouc-Wen equation".to_owned(),
-        "command limits: the input range of the record; a faster reference needs a record with faster inputs".to_owned(),
+        "command limits: the input range of the record. For a faster reference, record faster inputs".to_owned(),
         format!(
             "slew-rate limit: {} units/s for the noise, {} units/s for the fastest input of the record",
             short(b.slew_of_noise),

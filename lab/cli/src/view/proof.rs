@@ -27,7 +27,9 @@ pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
         None => {
             let answer = format!("PROVED in {float}: |e| <= {error} N·m at every sample");
             heading(&mut out, width, command, (AnsiColor::Green, &answer));
-            let words = format!("The bound includes every rounding error. The proof also gives |s| <= {s} N·m.");
+            let words = format!(
+                "The bound includes every rounding error. The proof also gives |s| <= {s} N·m."
+            );
             prose(&mut out, width, &words);
             if proof.may_meet_the_limit {
                 prose(&mut out, width, AT_THE_LIMIT);

@@ -136,7 +136,10 @@ fn words(one: &Across) -> String {
     };
     let others = || named(&|grade| grade.is_none());
     match (one.is_joint, some) {
-        (true, 0) => format!("{}: found only in the joint fit, not in any single file", one.title),
+        (true, 0) => format!(
+            "{}: found only in the joint fit, not in any single file",
+            one.title
+        ),
         (true, n) if n == all => format!("{}: found in each single file, {high}", one.title),
         (true, n) => format!(
             "{}: found in {n} of {all} single files, {high}; not in {}",

@@ -86,7 +86,11 @@ fn answer(facts: &Facts, width: Width) -> String {
         prose(&mut out, width, &errors);
     }
     for lack in facts.lacks.iter().skip(1) {
-        prose(&mut out, width, &format!("also missing: {}", share(facts, lack)));
+        prose(
+            &mut out,
+            width,
+            &format!("also missing: {}", share(facts, lack)),
+        );
     }
     let exported = facts.constrained().is_some();
     for round in &facts.rounds {
@@ -297,7 +301,7 @@ fn errors(facts: &Facts, report: Report) -> String {
     }
     let mut out = rows.text(width);
     if !facts.beyond.is_empty() {
-        block(&mut out, width, "Note", ["in brackets: not in the final model, which is as good without the term on blocks that were left out of the fit"]);
+        block(&mut out, width, "Note", ["in brackets: not in the final model, because the model is as good without the term on blocks left out of the fit"]);
     }
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {

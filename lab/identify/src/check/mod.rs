@@ -198,7 +198,7 @@ impl Check {
         };
         if check.start > MATTERS * check.rmse {
             let share = three_digits(100.0 * check.start / check.deviation);
-            check.data.notes.push(format!("the motion before the record is unknown, so the prediction is uncertain by up to {share} % of the output's standard deviation"));
+            check.data.notes.push(format!("the motion before the record is unknown, and the initial state of the model changes the prediction by up to {share} % of the output's standard deviation"));
         }
         check.verdict = check.found();
         if check.verdict == Verdict::DoesNotHold {

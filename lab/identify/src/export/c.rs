@@ -125,10 +125,7 @@ impl ModelFile {
 
     /// The channels' places in a sample.
     fn places(&self, about: &About, upper: &str, out: &mut String) {
-        line!(
-            out,
-            "/* Smallest number of channels in a sample. */"
-        );
+        line!(out, "/* Smallest number of channels in a sample. */");
         line!(
             out,
             "#define {upper}_CHANNELS {}",
@@ -248,7 +245,10 @@ fn guarded(upper: &str, body: &str) -> String {
     );
     line!(out, "#endif");
     line!(out, "#else");
-    line!(out, "#define {guard} {own} /* CRC-32 of the text below */\n");
+    line!(
+        out,
+        "#define {guard} {own} /* CRC-32 of the text below */\n"
+    );
     out += body;
     line!(out, "#endif /* {guard} */");
     out

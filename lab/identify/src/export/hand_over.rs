@@ -239,7 +239,9 @@ fn fitted_without(data: &Prepared, last: &Solution, invertible: bool) -> Result<
     }
     structure.invertible = true;
     let within = fit_from(data, &structure, Some(&Known::of(&free)), 0.0);
-    within.ok_or_else(|| "--invertible: the model cannot be fitted within the bound of sigma".to_owned())
+    within.ok_or_else(|| {
+        "--invertible: the model cannot be fitted within the bound of sigma".to_owned()
+    })
 }
 
 /// Whether any of a solution's models cannot be inverted.

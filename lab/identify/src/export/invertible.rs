@@ -77,7 +77,10 @@ pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
             )));
         }
         if effect.is_input_stage() {
-            return Ok(Some(format!("the inverse of {} is discontinuous", term.effect)));
+            return Ok(Some(format!(
+                "the inverse of {} is discontinuous",
+                term.effect
+            )));
         }
     }
     let (gain, kappa) = match file.mode.as_str() {

@@ -245,7 +245,10 @@ impl ModelFile {
         );
         line!(out, "///");
         line!(out, "/// # Errors");
-        line!(out, "/// None, because the constructors accept the numbers below.");
+        line!(
+            out,
+            "/// None, because the constructors accept the numbers below."
+        );
         line!(out, "#[allow(dead_code)]");
         line!(
             out,
@@ -269,7 +272,10 @@ impl ModelFile {
         }
         line!(out, "///");
         line!(out, "/// # Errors");
-        line!(out, "/// None, because the constructors accept the numbers below.");
+        line!(
+            out,
+            "/// None, because the constructors accept the numbers below."
+        );
         // A fitted number that is near pi is not pi.
         line!(out, "#[allow(dead_code, clippy::approx_constant)]");
         let terms = self.terms.len();

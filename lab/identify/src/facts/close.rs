@@ -184,9 +184,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     let (mut data, mut structure) = asked.prepare_all(records, question.own_gains)?;
     if question.own_gains {
         if !structure.hysteresis {
-            return Err(
-                "--per-file gains needs bouc-wen, which --baseline omits".to_owned(),
-            );
+            return Err("--per-file gains needs bouc-wen, which --baseline omits".to_owned());
         }
         structure.own_gains = records.len();
     }

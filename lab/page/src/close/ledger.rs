@@ -119,7 +119,13 @@ fn mechanisms(facts: &Facts) -> Markup {
         } }
     };
     let rows: Vec<Markup> = facts.lacks.iter().map(row).collect();
-    let head = ["", "confidence", "by itself", "added to the others", "terms"];
+    let head = [
+        "",
+        "confidence",
+        "by itself",
+        "added to the others",
+        "terms",
+    ];
     let charts = facts.lacks.iter().enumerate();
     let charts: Vec<Markup> = charts
         .filter_map(|(k, lack)| curve(facts, k, lack))

@@ -37,7 +37,8 @@ pub(super) fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, R
                 let place = format!(" at line {} column {}", error.line(), error.column());
                 let why = error.to_string().replace(&place, "");
                 let why = shown(&why, 2 * NAME_LENGTH);
-                let message = format!("the file begins as JSON, but the JSON is invalid here: {why}");
+                let message =
+                    format!("the file begins as JSON, but the JSON is invalid here: {why}");
                 return Err(RecordError::at(error.line(), message));
             }
         }

@@ -228,7 +228,10 @@ fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String>
     let [low, high] = plant.output().ok_or(super::TOO_SHORT)?;
     let cutoff = plant.about.cutoff_hz;
     if plant.effects > 0.0 && !(cutoff.is_finite() && cutoff > 0.0) {
-        return Err("the rate of the effects has no bound, because the model file has no about.cutoff_hz".to_owned());
+        return Err(
+            "the rate of the effects has no bound, because the model file has no about.cutoff_hz"
+                .to_owned(),
+        );
     }
     // Bernstein: what is band-limited to f and stays below M has a rate below 2·pi·f·M.
     let effects = match plant.effects > 0.0 {

@@ -193,8 +193,14 @@ impl Question {
             (self.drive_gain, "--drive-gain", "N·m/command unit", true),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let from = if above { "positive" } else { "zero or positive" };
-                return Err(format!("{option} {value}: must be {from} [{unit}]"));
+                let from = if above {
+                    "positive"
+                } else {
+                    "zero or positive"
+                };
+                return Err(format!(
+                    "{option} {value}: the value [{unit}] must be {from}"
+                ));
             }
         }
         Ok(())

@@ -55,7 +55,9 @@ impl Designed {
     #[must_use]
     pub fn certifies(&self) -> Certifies {
         let lacks = match (&self.gains.adaptive, &self.gains.plant) {
-            (None, _) => "it has no table [adaptive], because no gains of the adaptive law are admissible",
+            (None, _) => {
+                "it has no table [adaptive], because no gains of the adaptive law are admissible"
+            }
             (_, None) => "it has no table [plant]",
             _ => {
                 return match designed::prove(&self.gains) {

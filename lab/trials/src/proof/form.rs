@@ -93,7 +93,8 @@ macro_rules! number {
     };
 }
 number!(Positive, "a finite positive number", |x| x > 0.0);
-number!(NotNegative, "a finite number, zero or positive", |x| x >= 0.0);
+number!(NotNegative, "a finite number, zero or positive", |x| x
+    >= 0.0);
 
 /// A checked box, likewise. It is read as a list of any length: an array of two would take
 /// the first two of three.

@@ -258,7 +258,9 @@ fn of_any<T: Real>(form: &Form) -> Result<Proof, String> {
         6 => of::<T, 6>(form),
         7 => of::<T, 7>(form),
         8 => of::<T, 8>(form),
-        many => Err(format!("{many} regressors are too many; at most 8 are allowed")),
+        many => Err(format!(
+            "{many} regressors are too many; at most 8 are allowed"
+        )),
     }
 }
 
@@ -268,7 +270,8 @@ fn of<T: Real, const N: usize>(form: &Form) -> Result<Proof, String> {
     let examined = PeakRounded::examine(&settings, &plant).map_err(|e| e.to_string())?;
     // What is proved is of a controller that exists.
     if examined.is_proved() {
-        Adaptive::try_new(settings).map_err(|e| format!("the controller rejects these settings: {e}"))?;
+        Adaptive::try_new(settings)
+            .map_err(|e| format!("the controller rejects these settings: {e}"))?;
     }
     Ok(proof(form, &settings, &plant, &examined))
 }

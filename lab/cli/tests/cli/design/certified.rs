@@ -122,8 +122,8 @@ fn what_a_design_lacks_or_states_wrongly_is_one_line() {
     assert!(line.contains("pi.toml: has no [adaptive]"), "{line}");
     for (key, value, what) in [
         ("alpha", "[0.9, 0.8]", "the lower one first"),
-        ("alpha", "[0.0, 0.8]", "above zero"),
-        ("disturbance", "-1.0", "zero or above"),
+        ("alpha", "[0.0, 0.8]", "positive"),
+        ("disturbance", "-1.0", "zero or positive"),
         ("disturbance_rate", "nan", "a finite number"),
         ("reference_rate", "inf", "a finite number"),
     ] {

@@ -20,7 +20,7 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     let asked = ["--rate", "500", "--delay", "0.006"];
     let report = said(&[["design", &model].as_slice(), &asked].concat());
     assert!(
-        report.contains("the record reaches no torque in both directions")
+        report.contains("no torque is reached in both directions of motion")
             && report.contains("record a larger stroke")
             && report.contains("no certificate"),
         "{report}"
@@ -28,8 +28,9 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     // Neither of the two that refuse it is recommended.
     assert!(
         report.contains("`bowden compare` refuses this model")
-            && report
-                .contains("`bowden certify` refuses a file with these gains: it has no [plant]"),
+            && report.contains(
+                "`bowden certify` rejects a file with these gains: it has no table [plant]"
+            ),
         "{report}"
     );
     let gains = place.path("gains.toml");
@@ -92,7 +93,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     assert!(line.contains("on both sides of zero"), "{line}");
     assert!(
         one.contains(
-            "\n        `bowden certify` refuses a file with these gains: [adaptive]: limits 2 to 40"
+            "\n        `bowden certify` rejects a file with these gains: [adaptive]: limits 2 to 40"
         ),
         "{one}"
     );
@@ -178,7 +179,7 @@ fn gains_of_another_model_are_told() {
     let other = place.file("other.toml", text(&model));
     let report = told(&other);
     assert!(
-        report.contains("gains.toml, which were designed for model.toml and not for this model"),
+        report.contains("gains.toml, designed for model.toml and not for this model"),
         "{report}"
     );
 }

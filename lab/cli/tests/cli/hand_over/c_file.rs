@@ -88,7 +88,7 @@ fn what_the_c_interface_has_no_room_for_is_refused_in_one_line() {
     let many = vec![term("x"); 17].join(", ");
     let (done, words) = exported(&nasty("\"x\"", &many));
     assert!(
-        !done && words.contains("17 terms: the C interface has room for 16"),
+        !done && words.contains("the model has 17 terms, but the C interface allows at most 16"),
         "{words}"
     );
     let names: Vec<String> = (0..17).map(|k| format!("\"c{k}\"")).collect();

@@ -119,26 +119,26 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
         |name: &str, options: &[&str]| line(&foreign(name).display().to_string(), options);
     assert_eq!(
         foreign("words.mat", &[]),
-        ": no vector of real numbers among the variables `who`, `rate`; each column must be one vector, alone or as a field of a structure"
+        ": no vector of real numbers among the variables `who`, `rate`; each column must be one vector, on its own or as a field of a structure"
     );
     assert_eq!(
         foreign("lengths.mat", &[]),
-        ": column `f`: has 239 values; it must have 240, as `t` does"
+        ": column `f`: the column has 239 values, but it must have 240, as `t` does"
     );
     for name in ["complex.mat", "complex_7_3.mat"] {
         let line = foreign(name, &[]);
         assert!(
-            line.starts_with(": column `x`: no such column among "),
+            line.starts_with(": column `x`: no such column; the columns are "),
             "{name}: {line}"
         );
     }
     assert_eq!(
         foreign("vectors.mat", &["--header-line", "2"]),
-        ": --header-line 2: the file has no lines; its columns have names already"
+        ": --header-line 2: the file has no lines, and its columns already have names"
     );
     assert_eq!(
         foreign("words.parquet", &[]),
-        ": no numeric column; each quantity must have one"
+        ": the file has no numeric column; each quantity must have one"
     );
     for codec in ["zstd", "brotli"] {
         assert_eq!(
@@ -150,7 +150,7 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
     }
     assert_eq!(
         foreign("null.parquet", &[]),
-        ":100: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows"
+        ":100: column `x`: the cell is empty, but it must be a number; --drop-bad drops such rows"
     );
 }
 
@@ -179,7 +179,7 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         csv(),
         &["--channel", "stretch=x_mm-load_N"],
-        ":1: column `load_N`: has unit N; it must have unit mm, as `x_mm` does, so that the two can be added or subtracted",
+        ":1: column `load_N`: the column has unit N, but it must have unit mm, as `x_mm` has, so that the two can be added or subtracted",
     );
     refuses(
         csv()

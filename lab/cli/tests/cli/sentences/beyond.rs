@@ -158,7 +158,7 @@ fn a_hysteresis_that_turns_against_the_loop_is_said_to_cancel_another_part() {
     let kappa = all.iter().find(|p| p["name"] == "kappa_eta").unwrap();
     assert!(kappa["value"].as_f64().unwrap() < 0.0, "{kappa}");
     closed.says(&[
-        "The hysteresis loop runs in the opposite sense to the output's loop (kappa_eta -",
+        "The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta -",
         "partly cancel",
     ]);
     let cable = cable(0.95, 0.0, 0.12).close(&[]);
@@ -211,7 +211,7 @@ fn nothing_is_planned_that_makes_no_parameter_known() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(output.stdout.is_empty(), "{told}");
     for open in [
-        "No planned motion identifies sigma, n.",
+        "No planned motion identifies these parameters: sigma, n.",
         "no experiment of this kind helps",
     ] {
         assert!(told.contains(open), "{told}");

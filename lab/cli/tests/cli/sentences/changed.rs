@@ -44,7 +44,7 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
     let closed = spring((21.0, 1.5), 0).close(&[]);
     assert_eq!(closed.json["verdict"], "not-transferable");
     closed.says(&[
-        "The model does not transfer: its error is ",
+        "The model does not transfer. Its error is ",
         "from 21.",
         "Do not use",
     ]);

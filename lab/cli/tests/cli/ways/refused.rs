@@ -177,7 +177,7 @@ fn units_are_converted_or_refused() {
         assert!(
             line.contains("wrong.csv")
                 && line.contains(word)
-                && line.contains("; it must have unit ")
+                && line.contains(", but it must have unit ")
                 && line.contains(", as in the model"),
             "{line}"
         );
