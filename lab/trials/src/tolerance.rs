@@ -48,7 +48,7 @@ pub struct Middle {
 
 static ASSUMPTIONS: &[&str] = &[
     "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), with constant parameters",
-    "for the rig, this form neglects the inertia of the joint, and that the elasticity of the cable is upstream of the hysteresis",
+    "for the rig, this form neglects the inertia of the joint and treats the elasticity of the cable as if it were downstream of the hysteresis",
     "continuous time: the sampling period is much shorter than tau and 1/wn; the hold, the delay and the lags of drive and sensor act as one delay",
     "friction and load are bounded disturbances; f is any constant slope of the hysteresis",
     "neither the command limit nor the limit of the observer is active, and no sample is bad",

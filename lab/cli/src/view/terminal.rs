@@ -306,15 +306,15 @@ fn errors(facts: &Facts, report: Report) -> String {
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {
         let until = match fell {
-            0 => "the first term already raises it".to_owned(),
-            n => format!("it falls up to and including term {n}"),
+            0 => "The first term already raises this error".to_owned(),
+            n => format!("This error falls up to and including term {n}"),
         };
         block(
             &mut out,
             width,
             "Note",
             [format!(
-                "↑: the term raises the held-out error, which the search does not use: {until}"
+                "↑: the term raises the held-out error, which the search does not use. {until}"
             )],
         );
     }
@@ -426,7 +426,7 @@ fn model(facts: &Facts, report: Report) -> String {
     let excitations =
         missing.map(|(title, why)| format!("to identify {title}: {}", why.excitation));
     let exported = facts.constrained();
-    let exported = exported.map(|_| "exported with --invertible, as in the file:".to_owned());
+    let exported = exported.map(|_| "model exported with --invertible, as in the file:".to_owned());
     let on_bound = matches!(&facts.hand_over, Ok(hand) if hand.on_inverse_bound);
     let tied = on_bound.then(|| format!("{} is {TIED}", last.gain_names[0]));
     let lines = exported

@@ -130,7 +130,7 @@ fn one_function_under_two_names_is_one_term_with_a_note() {
         let summary = report["summary"].as_str().unwrap();
         for text in [
             "Presliding and backlash are the same function with opposite signs, so either name is correct",
-            "with the opposite sign, it is slack",
+            "With the opposite sign, it is slack",
         ] {
             assert!(summary.contains(text), "{summary}");
         }

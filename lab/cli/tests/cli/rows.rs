@@ -230,7 +230,7 @@ fn an_option_of_glob_without_it_is_refused_and_not_passed_over() {
             )
         );
         let line = refused(&[asked, &["--workers", "3"]].concat());
-        assert!(line.contains("--workers 3: only --glob"), "{line}");
+        assert!(line.contains("--workers 3 needs --glob"), "{line}");
         refused(&[asked, &["--out", &out, "--workers", "3"]].concat());
     }
     assert!(!Path::new(&out).exists());

@@ -110,7 +110,7 @@ fn cuts_that_leave_nothing_say_from_where_they_count() {
     assert_eq!(
         refusal(text, &options),
         "r.csv:401: the record is too short: 0 samples of 400 remain after cutting; the minimum is 200; \
-         --start and --end count seconds from the first time stamp; the last one is at 3.990 s"
+         --start and --end are in seconds after the first time stamp, and the last time stamp is at 3.990 s"
     );
 }
 

@@ -68,7 +68,7 @@ fn a_file_that_cannot_be_opened_is_named() {
 #[test]
 fn a_file_without_a_record_is_refused() {
     let header = "but a header with column names is needed";
-    refused("", &format!("r.csv:1: the file is empty; {header}"));
+    refused("", &format!("r.csv:1: the file is empty, {header}"));
     refused(
         "\u{feff}\r\n \n",
         &format!("r.csv:1: the file is blank, {header}"),
@@ -121,9 +121,7 @@ fn a_header_that_is_none_is_refused() {
     );
     refused(
         rows().join("\n"),
-        &format!(
-            "r.csv:1: the line holds numbers; {header}; --names t,x,f names the columns of a file without a header"
-        ),
+        "r.csv:1: the line contains numbers, but it must be a header with column names; for a file without a header, use --names t,x,f",
     );
     let wide: Vec<String> = rows().iter().map(|row| format!("{row},1")).collect();
     refused(
@@ -242,7 +240,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     let drop = "--drop-bad drops such rows";
     refuses(
         "",
-        &format!("the cell is empty, but must be a number; {drop}"),
+        &format!("the cell is empty, but it must be a number; {drop}"),
     );
     refuses("abc", "`abc` is not a number");
     refuses("NaN", &format!("`NaN` is not a finite number; {drop}"));
@@ -259,7 +257,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     );
     refused(
         with_line(9, "0.07,1,"),
-        &format!("r.csv:9: column `f`: the cell is empty, but must be a number; {drop}"),
+        &format!("r.csv:9: column `f`: the cell is empty, but it must be a number; {drop}"),
     );
     refused(
         with_line(9, "x,1,2"),

@@ -16,8 +16,8 @@ fn time_that_does_not_run_forward_is_refused() {
     let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
     refused(
         &rounded,
-        "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows: \
-         the stamps appear to be rounded; --rate HZ computes the time from the row number (about 127.9 Hz); --drop-bad drops such rows",
+        "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows, \
+         so the stamps appear to be rounded; --rate HZ computes the time from the row number (about 127.9 Hz); --drop-bad drops such rows",
     );
     let options = Options {
         rate: Some(128.0),
@@ -86,7 +86,7 @@ fn options_that_cannot_be_followed_are_refused() {
 
 #[test]
 fn an_end_that_stands_still_is_refused() {
-    let still = "in every sample, but it must move";
+    let still = "in every sample, but it must vary";
     refused(
         of(|_| 2.5, f64::sin),
         &format!("r.csv:2: column `x`: the input is 2.5 {still}"),

@@ -158,7 +158,7 @@ fn comments_among_the_rows_are_passed_over() {
         assert_eq!(record.time, plain.time, "{head}");
         assert_eq!(record.notes[..notes.len()], *notes, "{head}");
         assert!(
-            record.notes[notes.len()].contains("ignored: a comment"),
+            record.notes[notes.len()].contains("ignored because it is a comment"),
             "{:?}",
             record.notes
         );

@@ -40,7 +40,7 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     assert!(report.status.success(), "{report:?}");
     let report = text(&report.stdout).to_owned();
     assert!(
-        report.contains("\n  PROVED") && report.contains("the limit may become active"),
+        report.contains("\n  PROVED") && report.contains("the command may saturate"),
         "{report}"
     );
     let holds = report.lines().filter(|l| l.starts_with("holds "));
@@ -48,8 +48,8 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     assert!(!report.contains("FAILS"), "{report}");
     // What is said to be enough is enough, and the box is the one without a limit.
     let weak = text(&with("40.0").stdout).to_owned();
-    let (_, enough) = weak.split_once("command of at least ").unwrap();
-    let enough = enough.split(',').next().unwrap();
+    let (_, enough) = weak.split_once("a command limit of at least ").unwrap();
+    let enough = enough.split(' ').next().unwrap();
     let mended = text(&with(enough).stdout).to_owned();
     assert!(mended.contains("\n  PROVED"), "{enough}: {mended}");
     let box_of = |report: &str| {
@@ -300,7 +300,7 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "delta = [0.0, 5.0]",
             "delta = [-1, 5.0]",
-            &["gains.toml:10:9: `delta`", "not below zero"],
+            &["gains.toml:10:9: `delta`", "zero or positive"],
         ),
         (
             "float = \"f32\"",

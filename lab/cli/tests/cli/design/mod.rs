@@ -263,7 +263,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
     let (_, gains) = designed(&place);
     let line = refused(&["compare", "--gains", &gains, "--seeds", "1"]);
     assert!(
-        line.contains("gains.toml: gains from `bowden design` need the model")
+        line.contains("gains.toml: gains from `bowden design` need their model")
             && line.contains("--model MODEL.toml"),
         "{line}"
     );

@@ -27,7 +27,7 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     );
     // Neither of the two that refuse it is recommended.
     assert!(
-        report.contains("`bowden compare` refuses this model")
+        report.contains("`bowden compare` cannot use this model")
             && report.contains(
                 "`bowden certify` rejects a file with these gains: it has no table [plant]"
             ),
@@ -134,7 +134,7 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
     ] {
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(
-            report.contains("these gains: it has no [adaptive]"),
+            report.contains("these gains: it has no table [adaptive]"),
             "{report}"
         );
         let line = report.lines().find(|l| l.contains("exclude each other"));
@@ -195,7 +195,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
         let asked = ["compare", "--model", &model, "--gains", gains];
         said(&[asked.as_slice(), &fixed, light, more].concat())
     };
-    assert!(!compared(&gains, &[]).contains("At a limit of the command"));
+    assert!(!compared(&gains, &[]).contains("The command saturates"));
     // PI alone is slowed down.
     let mut table: toml::Table = toml::from_str(&text(&gains)).unwrap();
     let limits = &mut table["pi"].as_table_mut().unwrap()["limits"];
@@ -204,12 +204,10 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     limits.insert("slew".to_owned(), (0.02 * designed).into());
     let slow = place.file("slow.toml", toml::to_string(&table).unwrap());
     let report = compared(&slow, &[]);
-    let told = report
-        .lines()
-        .find(|l| l.contains("At a limit of the command"));
+    let told = report.lines().find(|l| l.contains("The command saturates"));
     let told = told.unwrap_or_else(|| panic!("{report}"));
     assert!(
-        told.contains("command: pi at its slew-rate limit in "),
+        told.contains("saturates: pi at its slew-rate limit in "),
         "{told}"
     );
     assert!(!told.contains("adaptive"), "{told}");
@@ -235,12 +233,13 @@ fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {
     let (model, gains) = super::designed(&place);
     let line = refused(&["certify", "--gains", &model]);
     assert!(
-        line.contains("model.toml: is a model") && line.contains("`bowden design MODEL.toml"),
+        line.contains("model.toml: this file is a model")
+            && line.contains("`bowden design MODEL.toml"),
         "{line}"
     );
     let line = refused(&["certify", "--gains", &gains]);
     assert!(
-        line.contains("without --gains: `bowden certify FILE`"),
+        line.contains("certify this file with `bowden certify FILE`"),
         "{line}"
     );
 }

@@ -83,7 +83,7 @@ fn an_output_that_is_a_sine_at_another_frequency_is_no_model_whatever_a_tone_tak
     // What the tone takes is told apart, and not as explained.
     if closed.names().contains(&"tone") {
         assert!(closed.explains("time") > 0.5, "{}", closed.json["explains"]);
-        closed.says(&["(functions of time only)"]);
+        closed.says(&["functions of time explain"]);
     }
 }
 
@@ -266,7 +266,7 @@ fn a_model_of_the_load_that_reads_no_torque_is_called_one_of_the_load() {
     assert_eq!(closed.names(), ["gravity"]);
     closed.says(&[
         "Nearly all of the model's output comes from `phi_p` and none from `tau_i`",
-        "It will not hold with another load",
+        "so the model describes this load and no other",
     ]);
 }
 

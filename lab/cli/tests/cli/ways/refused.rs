@@ -165,7 +165,7 @@ fn units_are_converted_or_refused() {
     let without = csv.replacen("t [s],x [mm],f [N]", "t,x,f", 1);
     let without = json(&folder.file("without.csv", without));
     assert_eq!(own["nrmse"], without["nrmse"]);
-    assert!(without["notes"].to_string().contains("states no units"));
+    assert!(without["notes"].to_string().contains("has no units"));
 
     for (header, word) in [
         ("t [s],x [V],f [N]", "unit V"),
