@@ -84,7 +84,7 @@ fn certifies(designed: &Designed) -> String {
             "`bowden certify GAINS.toml` names the gain or limit that prevents a proof.".to_owned()
         }
         Certifies::Refuses(why) => {
-            format!("`bowden certify` rejects a file with these gains: {why}.")
+            format!("`bowden certify` rejects these gains: {why}.")
         }
     }
 }

@@ -56,9 +56,9 @@ impl Designed {
     pub fn certifies(&self) -> Certifies {
         let lacks = match (&self.gains.adaptive, &self.gains.plant) {
             (None, _) => {
-                "it has no table [adaptive], because no gains of the adaptive law are admissible"
+                "the file has no table [adaptive], because no gains of the adaptive law are admissible"
             }
-            (_, None) => "it has no table [plant]",
+            (_, None) => "the file has no table [plant]",
             _ => {
                 return match designed::prove(&self.gains) {
                     Ok(proof) if proof.proved => Certifies::Proves,

@@ -29,7 +29,7 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     assert!(
         report.contains("`bowden compare` cannot use this model")
             && report.contains(
-                "`bowden certify` rejects a file with these gains: it has no table [plant]"
+                "`bowden certify` rejects these gains: the file has no table [plant]"
             ),
         "{report}"
     );
@@ -93,7 +93,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     assert!(line.contains("on both sides of zero"), "{line}");
     assert!(
         one.contains(
-            "\n        `bowden certify` rejects a file with these gains: [adaptive]: limits 2 to 40"
+            "\n        `bowden certify` rejects these gains: [adaptive]: limits 2 to 40"
         ),
         "{one}"
     );
@@ -134,7 +134,7 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
     ] {
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(
-            report.contains("these gains: it has no table [adaptive]"),
+            report.contains("these gains: the file has no table [adaptive]"),
             "{report}"
         );
         let line = report.lines().find(|l| l.contains("exclude each other"));
