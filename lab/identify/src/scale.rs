@@ -2,7 +2,7 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// A trace: a hundredth.
+/// A hundredth, which is a trace.
 ///
 /// A choice: a hundredth of a signal is not visible in a plot of the whole signal.
 pub const TRACE: f64 = 0.01;
@@ -23,9 +23,9 @@ pub const PART: f64 = 0.1;
 
 /// A quarter.
 ///
-/// A choice: half of an error is a quarter of its square. On the selection segment, a move must reach a
-/// quarter of its reduction of the SSE. The rule "not worse" by itself accepts one coloured null in
-/// fifty.
+/// A choice: half of the error is a quarter of the squared error. On the selection segment, a move must
+/// reach a quarter of its reduction of the SSE. The rule "not worse" by itself accepts one coloured
+/// null in fifty.
 pub const QUARTER: f64 = 0.25;
 
 /// A half.

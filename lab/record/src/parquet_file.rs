@@ -75,7 +75,7 @@ impl File {
             let known = group.columns().get(place).map(|chunk| chunk.compression());
             if let Some(unread) = known.and_then(unread) {
                 let message = format!(
-                    "the file is compressed with {unread}, which bowden does not read; write the file with snappy or gzip"
+                    "the column is compressed with {unread}, which bowden does not read; write the file with snappy or gzip"
                 );
                 return Err(RecordError::new(message).on(&name));
             }

@@ -157,7 +157,7 @@ fn assumptions(out: &mut String, all: &Certified, width: Width) {
 fn within(tolerance: &Tolerance, what: &str) -> String {
     let told = match (tolerance.share, &tolerance.refused) {
         (Some(share), _) if share <= 0.0 => {
-            format!("{what} for the plant of the rig, but not proved for other plants")
+            format!("{what} for the rig's own plant, but not proved for other plants")
         }
         (Some(share), _) => format!(
             "{what} for every plant within {:.1} % (wn within {:.2} %)",

@@ -17,8 +17,8 @@ pub const LEAST_UNTESTED: (f64, f64) = (0.105, 0.69);
 /// A choice: below this value, rounding errors and model errors determine the coefficient.
 pub const EXCITED: f64 = 1e-4;
 
-/// A term that removes at least this share of the SSE only must not raise the error on the
-/// selection segment.
+/// If a term removes at least this share of the SSE, its only condition on the selection segment is
+/// that it does not raise the error.
 ///
 /// No record without a missing effect has reached this share.
 pub const LARGE: f64 = 0.3;

@@ -31,7 +31,10 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     // Integers say nothing of the sign.
     read(plain.replace(',', ";").replace("0.00;", "0;"), &[]);
     // Behind commas a comma separates.
-    refused(comma(&plain, ","), "r.csv:2: 6 cells, but the header has 3");
+    refused(
+        comma(&plain, ","),
+        "r.csv:2: the row has 6 cells, but the header has 3",
+    );
     refused(
         comma(&plain, ";").replace("0,20;", "0.20;"),
         "r.csv:22: column `t`: `0.20` has a decimal point; write a decimal comma, as in line 2",
@@ -60,13 +63,13 @@ fn commas_that_may_separate_thousands_are_refused() {
     };
     refused(
         with(&|i| grouped(900 + i), &seconds),
-        "r.csv:102: column `f`: `1,000` may be 1.000 or 1000, next to `900` without a comma in \
+        "r.csv:102: column `f`: `1,000` may mean 1.000 or 1000, because `900` in \
          line 2 has no comma; write thousands without a separator, or the same number of decimals in every cell",
     );
     // Time would run backwards at this place.
     refused(
         with(&|i| format!("{i},5"), &|i| grouped(10 * i)),
-        "r.csv:102: column `t`: `1,000` may be 1.000 or 1000, next to `0` without a comma in \
+        "r.csv:102: column `t`: `1,000` may mean 1.000 or 1000, because `0` in \
          line 2 has no comma; write thousands without a separator, or the same number of decimals in every cell",
     );
     // Three decimals in every cell, four digits without a comma, another number of decimals.
@@ -172,11 +175,11 @@ fn the_line_of_the_names_can_be_given() {
     );
     assert_eq!(
         refusal(&text, &at(0)),
-        "r.csv: --header-line 0: lines count from 1"
+        "r.csv: --header-line 0: lines are counted from 1"
     );
     assert_eq!(
         refusal(&text, &at(404)),
-        "r.csv: --header-line 404: the text has 403 lines"
+        "r.csv: --header-line 404: the file has only 403 lines"
     );
     assert_eq!(
         refusal(&text, &at(9)),
@@ -219,7 +222,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     // A row that was cut short, a spoilt one, and values behind the text are no text.
     refused(
         format!("{plain}4.00,1\n"),
-        "r.csv:402: 2 cells, but the header has 3",
+        "r.csv:402: the row has 2 cells, but the header has 3",
     );
     refused(
         format!("{plain}4.00,a,b\n"),
@@ -227,7 +230,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     );
     refused(
         format!("{plain}End\n4.00,1,2\n"),
-        "r.csv:402: 1 cells, but the header has 3",
+        "r.csv:402: the row has 1 cells, but the header has 3",
     );
     refused(
         format!("{plain}NaN,NaN,NaN\n"),
@@ -252,13 +255,13 @@ fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     cut[7] = "0.07,1.0".to_owned();
     refused(
         csv("t,x,f,Comment", &cut),
-        "r.csv:9: 2 cells, but the header has 4",
+        "r.csv:9: the row has 2 cells, but the header has 4",
     );
     let mut long = rows();
     long[0] += ",start";
     refused(
         csv("t,x,f,Comment", &long),
-        "r.csv:3: 3 cells, but the header has 4",
+        "r.csv:3: the row has 3 cells, but the header has 4",
     );
     let lost: Vec<String> = rows().iter().map(|row| row[..4].to_owned()).collect();
     let line = refusal(csv("t,x,f", &lost), &Options::default());

@@ -69,7 +69,7 @@ fn json_without_one_table_is_refused() {
     );
     refused(
         "[[\"t\", \"x\"], [1, 2, 3]]",
-        "r.csv:1: 3 cells, but there are 2 names",
+        "r.csv:1: the row has 3 cells, but there are 2 names",
     );
     refused(
         "{\"t\": [0, 1, 2], \"x\": [1, 2], \"f\": [1, 2, 3]}",

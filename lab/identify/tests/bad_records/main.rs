@@ -61,7 +61,10 @@ fn a_file_that_cannot_be_opened_is_named() {
         format!("{}: no such file", missing.display())
     );
     let error = read(folder.path(), &Options::default()).unwrap_err();
-    let line = format!("{}: is a folder; give a CSV file", folder.path().display());
+    let line = format!(
+        "{}: this is a folder; give a CSV file",
+        folder.path().display()
+    );
     assert_eq!(error.to_string(), line);
 }
 
@@ -275,11 +278,11 @@ fn a_cell_that_is_no_measured_number_is_shown() {
 fn a_row_that_does_not_fit_the_header_is_refused() {
     refused(
         with_line(57, "0.55,3"),
-        "r.csv:57: 2 cells, but the header has 3",
+        "r.csv:57: the row has 2 cells, but the header has 3",
     );
     refused(
         with_line(57, "0.55,3,4,5"),
-        "r.csv:57: 4 cells, but the header has 3",
+        "r.csv:57: the row has 4 cells, but the header has 3",
     );
     refused(
         with_line(57, ""),
@@ -337,7 +340,7 @@ fn a_quote_that_stays_open_is_refused() {
     // Closed by the next stray quote.
     refused(
         with_line(57, "0.55,\"1,2\n0.56,3,4\""),
-        "r.csv:57: 2 cells, but the header has 3; a quote extends the row to line 58",
+        "r.csv:57: the row has 2 cells, but the header has 3; a quote extends the row to line 58",
     );
     refused(
         with_line(57, "0.55,\"1,2\n0.56,\"3,4"),

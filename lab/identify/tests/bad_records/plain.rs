@@ -48,7 +48,7 @@ fn blanks_may_separate_the_columns() {
     );
     refused(
         single.replacen("\n0.20 ", "\n", 1),
-        "r.csv:22: 2 cells, but the header has 3",
+        "r.csv:22: the row has 2 cells, but the header has 3",
     );
 }
 
@@ -82,7 +82,7 @@ fn names_that_do_not_fit_are_refused() {
     );
     assert_eq!(
         refusal(&lines, &named(&["t", "x"])),
-        "r.csv:1: 3 cells, but --names lists 2"
+        "r.csv:1: the row has 3 cells, but --names lists 2"
     );
     assert_eq!(
         refusal(&lines, &named(&["t", "x", "x"])),
@@ -156,6 +156,6 @@ fn a_file_that_ends_within_a_line_loses_that_line() {
     // The last line may lack its end, and none above it.
     refused(
         whole.replacen("\n0.20,", "\n", 1) + "4.0",
-        "r.csv:22: 2 cells, but the header has 3",
+        "r.csv:22: the row has 2 cells, but the header has 3",
     );
 }

@@ -180,7 +180,7 @@ fn a_lone_array_has_columns_by_names_or_by_fields() {
         (npy("'|O'", "(400, 3)", false, &[]), Options::default(), "the array does not contain real numbers"),
         (matrix.clone(), names("t,x"), "the array has 3 columns, but --names lists 2"),
         (structured, names("t,x,f"), "--names: the fields of the array already have names"),
-        (matrix[..2000].to_vec(), Options::default(), "the file is damaged: an array ends early"),
+        (matrix[..2000].to_vec(), Options::default(), "the file is damaged: an array is truncated"),
     ] {
         let line = read(&bytes, &options).unwrap_err().to_string();
         assert_eq!(line, format!("r.npy: {says}"));

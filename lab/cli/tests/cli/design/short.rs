@@ -28,9 +28,8 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     // Neither of the two that refuse it is recommended.
     assert!(
         report.contains("`bowden compare` cannot use this model")
-            && report.contains(
-                "`bowden certify` rejects these gains: the file has no table [plant]"
-            ),
+            && report
+                .contains("`bowden certify` rejects these gains: the file has no table [plant]"),
         "{report}"
     );
     let gains = place.path("gains.toml");
@@ -92,9 +91,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     let line = refused(&["certify", &gains]);
     assert!(line.contains("on both sides of zero"), "{line}");
     assert!(
-        one.contains(
-            "\n        `bowden certify` rejects these gains: [adaptive]: limits 2 to 40"
-        ),
+        one.contains("\n        `bowden certify` rejects these gains: [adaptive]: limits 2 to 40"),
         "{one}"
     );
 }
@@ -223,7 +220,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     assert!(told.contains(&percent), "{told}");
     let page = place.path("page.html");
     compared(&slow, &["--report", &page]);
-    assert!(text(&page).contains("command: pi at its slew-rate limit in "));
+    assert!(text(&page).contains("saturates: pi at its slew-rate limit in "));
 }
 
 /// Certificates without a model's cable would be believed to be of it.

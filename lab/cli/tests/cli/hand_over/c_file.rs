@@ -141,7 +141,7 @@ fn a_play_before_the_model_has_its_name_and_half_width_in_c() {
     let (done, header) = exported(&text);
     assert!(done, "{header}");
     for line in [
-        " * The same with the input through bowden_play of half-width 0.081: 2.60 %.\n",
+        " * The same error with bowden_play of half-width 0.081 on the input: 2.60 %.\n",
         "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F32 0.081f\n",
         "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F64 0.081\n",
     ] {

@@ -57,7 +57,7 @@ fn a_spreadsheet_says_what_was_done_to_it() {
     let path = folder.file("excel.csv", latin_1(&german()));
     let text = said(&["identify", &path, "--max-terms", "0"]);
     for note in [
-        "the text is Windows-1252 (Latin-1)",
+        "text encoding: Windows-1252 (Latin-1)",
         "lines 1–4 above the names ignored",
         "units from line 6",
         "decimal commas were read",
@@ -324,7 +324,7 @@ fn a_pattern_reads_as_in_a_shell() {
     for (pattern, why) in [
         ("*/", "no file matches this pattern"),
         ("1.csv/*", "no file matches this pattern"),
-        ("[", "is not a pattern: invalid range pattern"),
+        ("[", "invalid pattern: invalid range pattern"),
     ] {
         let path = folder.path(pattern);
         let line = refused(&["identify", &path]);
