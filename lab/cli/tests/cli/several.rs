@@ -31,7 +31,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let fewer = renamed(&folder, &a, "fewer.csv", |h| h.replace("phi_d", "other"));
     let line = refused(&["identify", &a, &fewer]);
     assert!(
-        line.contains("fewer.csv: column `phi_d`: no such channel"),
+        line.contains("fewer.csv: column `phi_d`: the file has no such channel"),
         "{line}"
     );
     let line = refused(&["identify", &fewer, &a]);
@@ -98,7 +98,7 @@ fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_s
     );
     let line = refused(&["identify", &folder.path("*.vector.csv")]);
     assert!(
-        line.ends_with("no file matches this pattern but 1 test vector of --model-out"),
+        line.ends_with("no file matches this pattern except 1 test vector of --model-out"),
         "{line}"
     );
     // A record of such a name stays one.

@@ -45,7 +45,7 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
     assert_eq!(closed.json["verdict"], "not-transferable");
     closed.says(&[
         "The model does not transfer. Its error is ",
-        "from 21.",
+        "(after 21.",
         "Do not use",
     ]);
     let sound = spring((99.0, 0.0), 0).close(&[]);
