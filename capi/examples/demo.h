@@ -1,10 +1,10 @@
 /* Identified by bowden 0.2.0 from (embedded: bowden generate --mode torque --effect viscous --seed 7).
  *
  * Input [N·m], output [N·m], torque mode.
- * Fitted below 7.6 Hz to a record of 1000 samples per second.
+ * Fitted to a record sampled at 1000 Hz and low-pass filtered at 7.6 Hz.
  *
- * Error as a share of the output's standard deviation: fit 7.01 %, held out 10.83 %.
- * Held-out error sample by sample, with the rates below: 10.74 %.
+ * Error as a share of the output's standard deviation: fit 7.01 %, held-out 10.83 %.
+ * Held-out error sample by sample, with the time constant below: 10.74 %.
  * Not identified: gain (fixed at 2·sigma·kappa_eta·rho by --invertible).
  * Not identified: sigma (at its lower bound).
  * Not identified: n (at its lower bound).
@@ -16,24 +16,24 @@
  * if (demo_load_f32(&model, NULL) < 0) ...
  */
 #ifdef BOWDEN_MODEL_DEMO_H
-#if BOWDEN_MODEL_DEMO_H != 0xc24c112du
+#if BOWDEN_MODEL_DEMO_H != 0x00508057u
 #error "two headers of different models have the prefix DEMO_: export one under another file name"
 #endif
 #else
-#define BOWDEN_MODEL_DEMO_H 0xc24c112du /* CRC-32 of what follows */
+#define BOWDEN_MODEL_DEMO_H 0x00508057u /* CRC-32 of the text below */
 
 #include "bowden.h"
 
-/* Number of channels of a sample: at least those that the model reads. */
+/* Smallest number of channels in a sample. */
 #define DEMO_CHANNELS 2
 #define DEMO_CHANNEL_PHI_P 0 /* phi_p [rad] */
 #define DEMO_CHANNEL_PHI_D 1 /* phi_d [rad] */
 
-/* time_constant [s] to set after BOWDEN_RATES_SETTINGS_F32_INIT or _F64_INIT, for every source. */
+/* Set time_constant [s] to this value after BOWDEN_RATES_SETTINGS_F32_INIT or _F64_INIT, for every source. */
 #define DEMO_RATES_TIME_CONSTANT_F32 0.008376576f
 #define DEMO_RATES_TIME_CONSTANT_F64 0.008376575952205019
 
-/* The model in float, with its checksum: for bowden_model_load_f32. */
+/* The model in float with its checksum, for bowden_model_load_f32. */
 static const uint8_t demo_bytes_f32[42] = {
     0x01, 0x00, 0xae, 0x8d, 0x73, 0x3f, 0xcc, 0x79, 0xde, 0x3f, 0x41, 0x54, 0x95, 0xbb, 0xd8, 0xd8,
     0x0b, 0x3f, 0x8b, 0x41, 0x00, 0x3f, 0xc5, 0x20, 0x80, 0x3f, 0x01, 0x02, 0x01, 0x00, 0x00, 0x00,
@@ -57,7 +57,7 @@ static inline bowden_result demo_compensator_f32(bowden_compensator_f32 *compens
     return bowden_compensator_init_f32(compensator, model, longest_dt, demo_ranges_f32, 2, about);
 }
 
-/* The model in double, with its checksum: for bowden_model_load_f64. */
+/* The model in double with its checksum, for bowden_model_load_f64. */
 static const uint8_t demo_bytes_f64[74] = {
     0x01, 0x00, 0x3d, 0x12, 0x7d, 0xb4, 0xb5, 0x71, 0xee, 0x3f, 0xe1, 0x11, 0x8d, 0x7b, 0x39, 0xcf,
     0xfb, 0x3f, 0x31, 0x85, 0x2c, 0x25, 0x88, 0xaa, 0x72, 0xbf, 0x90, 0x71, 0x2e, 0xf0, 0x1a, 0x7b,

@@ -1,19 +1,19 @@
-//! Identified by bowden 0.2.0 from (embedded: bowden generate --mode torque --effect viscous --seed 7).
+//! Identified by bowden 0.2.0 from built-in synthetic record (bowden generate --mode torque --effect viscous --seed 7).
 //!
 //! Input [N·m], output [N·m], torque mode.
 //! Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].
-//! Fitted below 7.6 Hz to a record of 1000 samples per second.
+//! Fitted to a record sampled at 1000 Hz and low-pass filtered at 7.6 Hz.
 //!
-//! Error as a share of the output's standard deviation: fit 7.01 %, held out 10.83 %.
-//! Held-out error sample by sample, with the rates below: 10.74 %.
+//! Error as a share of the output's standard deviation: fit 7.01 %, held-out 10.83 %.
+//! Held-out error sample by sample, with the time constant below: 10.74 %.
 //! Not identified: gain (fixed at 2·sigma·kappa_eta·rho by --invertible).
 //! Not identified: sigma (at its lower bound).
 //! Not identified: n (at its lower bound).
 //! Feed-forward: yes.
 //!
-//! The rates of each source, once per sample, each source with its own `RatesState`:
+//! Compute the derivatives of each source once per sample, with a `RatesState` for each source:
 //! `let motion = Rates::try_new(RATES_TIME_CONSTANT)?.step(&mut state, position, dt).motion;`
-//! For a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
+//! Feed-forward controller: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`.
 
 use bowden::control::BenchRange;
 use bowden::effect::Motion;
@@ -22,27 +22,27 @@ use bowden::hysteresis::BoucWen;
 use bowden::model::{FixedModel, Model, Source, Term};
 use bowden::transmission::Transmission;
 
-/// Time constant of `bowden::signal::Rates` for the rates of every source [s].
+/// Time constant [s] of `bowden::signal::Rates` for every source.
 #[allow(dead_code)]
 pub const RATES_TIME_CONSTANT: f32 = 0.008376576;
 
-/// The terms of the model, each with the type of its effect.
+/// The terms of the model, with the type of each effect.
 #[allow(dead_code)]
 pub type Terms = (Term<f32, Viscous>,);
 
-/// The identified model as a type that can hold any effect: for a `Compensator` or a file.
+/// The identified model in a type that can hold any effect, for a `Compensator` or a file.
 ///
 /// # Errors
-/// None with the numbers below.
+/// None, because the constructors accept the numbers below.
 #[allow(dead_code)]
 pub fn model() -> Result<Model<f32, 1>, bowden::Error> {
     Ok(fixed_model()?.to_model())
 }
 
-/// The identified model; firmware links only the effects that it names.
+/// The identified model. Firmware links only the effects that it names.
 ///
 /// # Errors
-/// None with the numbers below.
+/// None, because the constructors accept the numbers below.
 #[allow(dead_code, clippy::approx_constant)]
 pub fn fixed_model() -> Result<FixedModel<f32, 1, Terms>, bowden::Error> {
     // rho [1/(N·m)], sigma [1], n [1]
@@ -64,7 +64,7 @@ pub fn fixed_model() -> Result<FixedModel<f32, 1, Terms>, bowden::Error> {
     FixedModel::try_new(Some(transmission), terms)
 }
 
-/// Range in the fitted record of each source that the model reads, for `Compensator::with_ranges`.
+/// Recorded range of each source that the model reads, for `Compensator::with_ranges`.
 #[allow(dead_code, clippy::approx_constant)]
 pub fn ranges() -> [BenchRange<f32>; 2] {
     [

@@ -50,7 +50,7 @@ def test_of_a_row(plain: dict[str, Any], frame: Any) -> None:
 
 def test_of_arrays(plain: dict[str, Any]) -> None:
     t, tau_i, tau_o = (plain[name] for name in ("t", "tau_i", "tau_o"))
-    with pytest.raises(bowden.Error, match="column `tau_o`: has 9 values; it must have 6000"):
+    with pytest.raises(bowden.Error, match="column `tau_o`: the column has 9 values, but it must have 6000"):
         bowden.identify(t, tau_i, tau_o[:9])
     with pytest.raises(bowden.Error, match=r"column `tau_i`: shape \(6000, 1\); one dimension"):
         bowden.identify(t, tau_i[:, None], tau_o)

@@ -137,7 +137,7 @@ function view(data, parts) {
       return (100 * of((i) => data.measured[i] - state.model[i])) / of((i) => data.measured[i] - mean);
     };
     const said = Object.keys(data.segments).filter((name) => data.segments[name].length).map((name) => `${name} ${digits(share(name))} %`);
-    errors.textContent = factors ? `Error as a share of the output's std: ${said.join(" · ")}` : "These parts cannot be told apart on this record.";
+    errors.textContent = factors ? `Error relative to the output's std: ${said.join(" · ")}` : "This record cannot distinguish these parts.";
     draw();
   };
   for (const own of parts) {
@@ -152,7 +152,7 @@ function view(data, parts) {
   const shapes = sliders(data, parts.find((own) => own.name === "transmission.hysteresis"), fit);
   const root = element("section", { "aria-labelledby": "explore-head" },
     element("h3", { id: "explore-head" }, "Take the model apart"),
-    element("p", { class: "note" }, "Switch a part off, and the gains of the other parts are refitted to the fit segment. Drag over the residual to zoom; the loop shows the same time range."),
+    element("p", { class: "note" }, "Switch a part off to refit the gains of the others on the fit segment. Drag over the residual to zoom. The loop shows the same time range."),
     errors,
     element("div", { class: "explore" },
       element("fieldset", {}, element("legend", {}, "Parts of the model"), list),
@@ -184,7 +184,7 @@ function sliders(data, part, fit) {
     const eta = await of([...now.slice(0, 3), now[3] ?? 0], data.input);
     if (own !== turn) return;
     part.values = eta;
-    said.textContent = "Recomputed from the samples of the trace; at the identified values the error is therefore close, but not equal, to that of the report.";
+    said.textContent = "Recomputed from the samples of the trace, so at the identified values the error is close to that of the report, but not equal.";
     fit();
   };
   const fields = ranges.map(({ name, unit, low, high }, k) => {

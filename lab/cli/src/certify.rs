@@ -9,25 +9,25 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Certify {
-    /// Your gains of the first-order form and the known ranges of the plant. The program then
-    /// proves an error bound for the controller in its float type, including every rounding error.
-    /// The exit status is 1 if the proof fails.
+    /// Your gains for the first-order form, and the known ranges of the plant parameters. The
+    /// program then proves an error bound for the controller in its float type, including every
+    /// rounding error. The exit status is 1 if the proof fails.
     #[arg(value_name = "GAINS.toml", conflicts_with = "gains")]
     own: Option<PathBuf>,
     /// Gains and rig [default: the gains of Nguyen et al. (2018) and the reference rig].
     #[arg(long, alias = "model", value_name = "FILE.toml")]
     gains: Option<PathBuf>,
-    /// Also print the assumptions, the quantities without a bound and the reasons, and each
-    /// inequality of a proof.
+    /// Also print the assumptions, the reason for each missing bound, and each inequality of a
+    /// proof.
     #[arg(long, short)]
     verbose: bool,
     /// Print one JSON object on stdout instead of text.
     #[arg(long)]
     json: bool,
-    /// Write the proof for your gains as a theorem, which `coqc` checks independently.
+    /// Write the proof for your gains as a theorem that `coqc` checks independently.
     #[arg(long, value_name = "FILE.v", requires = "own")]
     coq: Option<PathBuf>,
-    /// Write the roundings of one step as a script, which `gappa` checks independently.
+    /// Write the rounding errors of one step as a script that `gappa` checks independently.
     #[arg(long, value_name = "FILE.g", requires = "own")]
     gappa: Option<PathBuf>,
 }

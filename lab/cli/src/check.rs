@@ -45,7 +45,7 @@ impl Check {
         let mode = self.columns.mode.map(ModeName::mode);
         if mode.is_some_and(|mode| mode != given.mode()) {
             return Err(of_model(format!(
-                "--mode must agree with the model: the model is in {} mode",
+                "--mode must be {}, the mode of the model",
                 given.mode().name()
             )));
         }
@@ -92,10 +92,11 @@ pub fn load(path: &Path) -> Result<String, Failure> {
     let size = std::fs::metadata(path).map_err(|e| failed(&e))?.len();
     if size > LARGEST {
         return Err(failed(
-            &"is larger than any model file; give a file written by `identify --model-out`",
+            &"the file is larger than any model file; give a file written by `identify --model-out`",
         ));
     }
     let bytes = std::fs::read(path).map_err(|e| failed(&e))?;
-    String::from_utf8(bytes)
-        .map_err(|_| failed(&"is not text; give a TOML file written by `identify --model-out`"))
+    String::from_utf8(bytes).map_err(|_| {
+        failed(&"the file is not text; give a TOML file written by `identify --model-out`")
+    })
 }

@@ -30,9 +30,10 @@ enum PerFile {
 
 #[derive(Args, Default)]
 pub struct Close {
-    /// Records: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz or .npy, each also compressed with gzip; several from one
-    /// rig for one joint model, or a pattern such as 'runs/*.csv' [default: the built-in record].
-    /// With three or more records, the whole last record is held out.
+    /// One or more records of one rig, or a pattern such as 'runs/*.csv' [default: the built-in
+    /// record]. Formats: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz and .npy, optionally
+    /// compressed with gzip. Several records give one joint model. With three or more, the whole
+    /// last record is held out.
     #[arg(value_name = "RECORD")]
     records: Vec<PathBuf>,
     #[command(flatten)]
@@ -47,9 +48,9 @@ pub struct Close {
     /// Also print the tests of each term, the rejected terms and the planned experiments.
     #[arg(long, short)]
     verbose: bool,
-    /// Write the model: .toml for tools, .rs or .postcard for firmware. NAME.vector.csv contains
-    /// samples and the outputs that the model must reproduce. With --per-file gains there is one
-    /// model for each file: NAME-1.toml, NAME-2.toml, …
+    /// Write the model: .toml for tools, .rs or .postcard for firmware. The test vector
+    /// NAME.vector.csv contains samples and the outputs that the model must reproduce. With
+    /// --per-file gains, each file has its own model: NAME-1.toml, NAME-2.toml, …
     #[arg(long, value_name = "FILE.toml")]
     model_out: Option<PathBuf>,
     /// Write the filtered signals over time as CSV: measured, baseline, final, residual, and each
@@ -58,9 +59,9 @@ pub struct Close {
     trace: Option<PathBuf>,
     #[command(flatten)]
     drawing: Drawing,
-    /// Fit the exported model so that a feed-forward can invert it: sigma up to
-    /// B/(2·kappa_eta·rho), and no delay, lag or play in series. The report describes this model.
-    /// The terms and the verdict do not change.
+    /// Fit the exported model so that a feed-forward can invert it, with sigma up to
+    /// B/(2·kappa_eta·rho), and without delay, lag or play in series. The report describes this
+    /// model. The terms and the verdict do not change.
     #[arg(long)]
     invertible: bool,
     #[command(flatten)]

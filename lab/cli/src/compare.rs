@@ -12,16 +12,17 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Compare {
-    /// White noise of the torque sensors [N·m rms] [default: the noise that --gains were designed
-    /// for, or the experiment's 0.28, or 0.02 with --effect]. At 0.28 the noise, amplified by the
-    /// gains of Nguyen et al. (2018), hides the improvement from a found effect.
+    /// White noise of the torque sensors [N·m rms] [default: the noise for which --gains were
+    /// designed, 0.02 with --effect, or otherwise 0.28 as in the experiment]. At 0.28, the gains of
+    /// Nguyen et al. (2018) amplify the noise so much that it hides the improvement from a found
+    /// effect.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
     /// Move the conduit during the trials, so that B, kappa_eta and T0 drift.
     #[arg(long)]
     varying: bool,
     /// Follow a gait, with an ankle's push-off once per second, instead of the reference of Nguyen
-    /// et al. (2018). This also runs a controller that learns from step to step.
+    /// et al. (2018). This also runs a controller with iterative learning.
     #[arg(long, conflicts_with = "effect")]
     gait: bool,
     /// Length of a trial [s].
@@ -31,25 +32,25 @@ pub struct Compare {
     #[arg(long, default_value_t = 6, value_name = "K")]
     seeds: u64,
     /// Add an effect that the baseline model lacks, identify it on the bench, and feed it forward.
-    /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in N·m rms.
+    /// STRENGTH is in N·m rms.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Option<String>,
-    /// A file written by `identify --model-out`; its model is fed forward. With --gains or an
-    /// option of the rig, the rig has this model's transmission and effects, and the reference
-    /// stays within the range of its record. Alternatively one file with gains, rig and model.
+    /// Model for the feed-forward: a file written by `identify --model-out`. With --gains or a rig
+    /// option, the rig has the transmission and the effects of this model, and the reference stays
+    /// within the range of its record. Alternatively, one file with gains, rig and model.
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
-    /// Gains from `bowden design`, with the model that they were designed for in --model; or one
-    /// file with gains, rig and model.
+    /// Gains from `bowden design`, together with their model in --model. Alternatively, one file
+    /// with gains, rig and model.
     #[arg(long, value_name = "GAINS.toml")]
     gains: Option<PathBuf>,
     #[command(flatten)]
     rig: RigOptions,
-    /// Write reference, torques, command and estimates of the first trial over time as CSV.
+    /// Write the reference, torques, command and estimates of the first trial over time as CSV.
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
-    /// Write the comparison as one self-contained HTML page: tables, and reference, torques, errors
-    /// and estimates over time, with the conduit at rest and moved.
+    /// Write the comparison as one self-contained HTML page: tables and time histories of the
+    /// reference, torques, errors and estimates, with the conduit at rest and moving.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
     /// Also print the standard deviations over trials, the transient, and a description of each
@@ -80,10 +81,10 @@ struct RigOptions {
     /// Damping of the joint [N·m·s/rad] [default: 0.5].
     #[arg(long, value_name = "N·m·s")]
     joint_damping: Option<f64>,
-    /// Spring that the joint works against [N·m/rad] [default: 150].
+    /// Stiffness of the spring at the joint [N·m/rad] [default: 150].
     #[arg(long, value_name = "N·m")]
     spring: Option<f64>,
-    /// Samples between a command and the drive, 0 to 8 [default: 1].
+    /// Delay between a command and the drive [samples], 0 to 8 [default: 1].
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u8).range(0..=8))]
     delay: Option<u8>,
     /// Time constant of the drive [s] [default: 0.0005].
@@ -112,7 +113,7 @@ impl RigOptions {
         for (option, value) in positive {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
                 return Err(format!(
-                    "{option} {value} is out of range; it must be above 0"
+                    "{option} {value} is out of range; it must be positive"
                 ));
             }
         }

@@ -15,9 +15,9 @@ pub struct Design {
     /// Sampling rate of the controller [Hz].
     #[arg(long, value_name = "HZ")]
     rate: f64,
-    /// Delay from a command to its effect in the measured torque [s]: transport, computation, and
-    /// the time constants of drive, sensor and joint; half a sample is added for the zero-order
-    /// hold.
+    /// Delay from a command to its effect on the measured torque [s]: transport, computation, and
+    /// the time constants of drive, sensor and joint. The program adds half a sample for the
+    /// zero-order hold.
     #[arg(long, value_name = "SECONDS")]
     delay: f64,
     /// Noise of the measured torque [N·m rms], which determines the lowest slew-rate limit.
@@ -28,8 +28,8 @@ pub struct Design {
         allow_negative_numbers = true
     )]
     noise: f64,
-    /// Torque at the proximal pulley per command unit [N·m], also used by the rig of `compare
-    /// --gains`.
+    /// Torque at the proximal pulley per command unit [N·m]. The rig of `compare --gains` also uses
+    /// this value.
     #[arg(
         long,
         value_name = "N·m",
@@ -37,7 +37,7 @@ pub struct Design {
         allow_negative_numbers = true
     )]
     drive_gain: f64,
-    /// Write the gains: .toml for `compare --gains` and for firmware with serde, .rs for
+    /// Write the gains: .toml for `compare --gains` and for firmware with serde, or .rs for other
     /// firmware.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,

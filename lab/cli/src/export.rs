@@ -35,7 +35,10 @@ impl Export {
         let name = named.file_stem().unwrap_or_default().to_string_lossy();
         prefix_in_c(&name).map_err(|e| match &self.out {
             Some(path) => format!("--out {}: {e}", path.display()),
-            None => format!("{}: {e}; --out FILE.h gives one", named.display()),
+            None => format!(
+                "{}: {e}; choose the name with --out FILE.h",
+                named.display()
+            ),
         })?;
         let header = model_in_c(&super::check::load(&self.model)?, &name)
             .map_err(|e| format!("{}: {e}", self.model.display()))?;

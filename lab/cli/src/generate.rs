@@ -16,23 +16,23 @@ pub struct Generate {
     /// Input of the transmission: a torque or a displacement.
     #[arg(long, value_enum, default_value = "torque")]
     mode: ModeName,
-    /// An effect that the baseline model will lack; may be given several times.
-    /// NAME, NAME:STRENGTH or NAME@CHANNEL:STRENGTH, strength in multiples of the noise.
+    /// Effect that the baseline model lacks. STRENGTH is in multiples of the noise. The option may
+    /// be repeated.
     #[arg(long, value_name = "NAME[@CHANNEL][:STRENGTH]")]
     effect: Vec<String>,
     /// Seed of all random choices.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Length [s].
+    /// Length of the record [s].
     #[arg(long, default_value_t = 20.0)]
     seconds: f64,
     /// Sampling rate [Hz].
     #[arg(long, default_value_t = 1000.0)]
     rate: f64,
-    /// Noise of the output, rms, in the unit of the output.
+    /// RMS noise of the output, in the unit of the output.
     #[arg(long, default_value_t = 0.05)]
     noise: f64,
-    /// Correlation of the noise between successive samples; 0: white noise.
+    /// Correlation of the noise between successive samples. 0 gives white noise.
     #[arg(long, default_value_t = 0.0)]
     colour: f64,
     /// Half-width of a play in series, between the input and the transmission

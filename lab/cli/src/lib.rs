@@ -40,7 +40,7 @@ pub type Failure = String;
     version,
     about = "Identification and control of hysteretic cable transmissions (Bowden cables)",
     disable_help_subcommand = true,
-    after_help = "Without a subcommand, bowden runs `bowden identify` on the built-in record.\n`bowden help terms` explains the terms of the output.\nExit status: 0 for any verdict; 1 if certify does not prove your gains, or if plan has no motion to write to --out; 2 for wrong usage or a bad record."
+    after_help = "Without a subcommand, bowden runs `bowden identify` on the built-in record.\n`bowden help terms` explains the terms of the output.\nExit status: 0 for any verdict. 1 if `bowden certify` does not prove your gains, or if `bowden plan` has no motion to write to --out. 2 for a usage error or an invalid record."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -49,7 +49,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Fit the baseline model, find and add the terms that it lacks, and compare the errors.
+    /// Fit the baseline model, add the missing terms, and compare the errors.
     // `close` and `check` were the names up to 0.1 and remain for scripts; the help does not show
     // them.
     #[command(alias = "close")]
@@ -57,23 +57,24 @@ enum Command {
     /// Test a model on another record from the same rig.
     #[command(alias = "check")]
     Validate(check::Check),
-    /// Derive gains and limits, including the slew-rate limit, from an identified model.
+    /// Derive controller gains, command limits and a slew-rate limit from an identified model.
     Design(design::Design),
-    /// Compare controllers on the simulated rig: errors, effort, and error bounds.
+    /// Compare the errors, the control effort and the error bounds of controllers on a simulated
+    /// rig.
     Compare(compare::Compare),
-    /// Print the proved bounds of the tracking error and their assumptions.
+    /// Print the proved bounds on the tracking error, and their assumptions.
     Certify(certify::Certify),
-    /// Print the smallest effects that the search would have found in a record.
+    /// Print the smallest effects that the search would find in a record.
     Power(power::Power),
     /// Plan a motion that separates ambiguous terms, and print it as CSV.
     Plan(plan::Plan),
-    /// Export a model as C source for firmware.
+    /// Export a model as a C header for firmware.
     Export(export::Export),
-    /// Generate a synthetic record with effects that the baseline model lacks, as CSV.
+    /// Generate a synthetic record as CSV, with effects that the baseline model lacks.
     // `record` was the name up to 0.1 and stays for scripts; the help does not show it.
     #[command(alias = "record")]
     Generate(generate::Generate),
-    /// Print completions for a shell.
+    /// Print a completion script for a shell.
     Completions(completions::Completions),
     /// Print the manual page of the program or of a subcommand.
     Man(man::Man),

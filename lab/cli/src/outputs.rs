@@ -51,11 +51,11 @@ fn named(option: &str, path: &Path) -> Result<(), Failure> {
 fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {
     let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
     if path.is_dir() {
-        return refuse("is a folder; give the name of a file".to_owned());
+        return refuse("this is a folder; give the name of a file".to_owned());
     }
     if let Some(other) = read.iter().find(|other| same(path, other)) {
         return refuse(format!(
-            "would overwrite {}, which is an input",
+            "this would overwrite {}, which is an input",
             other.display()
         ));
     }
@@ -134,7 +134,10 @@ pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
 fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
     for (index, (path, _)) in files.iter().enumerate() {
         if files.iter().take(index).any(|(other, _)| same(other, path)) {
-            return Err(format!("{}: would be written twice", path.display()));
+            return Err(format!(
+                "{}: this file would be written twice",
+                path.display()
+            ));
         }
     }
     let written = write_parts(files).and_then(|()| take_names(files));

@@ -33,7 +33,7 @@ enum Part {
 /// The files whose names match the pattern, sorted by name.
 pub fn files(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
     let text = pattern.to_string_lossy();
-    let refused = |e: glob::PatternError| format!("{text}: is not a pattern: {}", e.msg);
+    let refused = |e: glob::PatternError| format!("{text}: invalid pattern: {}", e.msg);
     Pattern::new(&text).map_err(refused)?;
     let (mut root, mut parts) = (PathBuf::new(), Vec::new());
     for component in pattern.components() {

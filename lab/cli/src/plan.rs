@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Plan {
-    /// One or several records of one rig: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz or .npy.
+    /// One or more records of one rig: CSV, JSON, .xlsx, .mat (v5, v7.3), Parquet, .npz or .npy.
     #[arg(required = true, value_name = "RECORD")]
     records: Vec<PathBuf>,
     #[command(flatten)]

@@ -14,10 +14,10 @@ pub struct Power {
     record: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// Test only these effects or families; NAME@CHANNEL for one channel.
+    /// Test only these effects or families. NAME@CHANNEL tests one channel.
     #[arg(long, value_delimiter = ',', value_name = "NAME,…")]
     effects: Vec<String>,
-    /// Trials of each amplitude, 5 to 200.
+    /// Number of trials for each amplitude, 5 to 200.
     #[arg(long, value_name = "K", default_value_t = TRIALS)]
     trials: usize,
     /// Also print every effect, and the construction of the trials.

@@ -23,7 +23,7 @@ pub fn share(step: &str) -> Option<f64> {
         let [from, to] = SEARCH;
         return Some(from + (to - from) * (1.0 - (2.0_f64 / 3.0).powi(turn - 1)));
     }
-    if let Some(rest) = step.strip_prefix("planting: ") {
+    if let Some(rest) = step.strip_prefix("testing: ") {
         let mut numbers = rest.split(' ').filter_map(|word| word.parse::<f64>().ok());
         return Some(numbers.next()? / numbers.next()?).filter(|share| share.is_finite());
     }
@@ -93,8 +93,8 @@ mod tests {
         let shares: Vec<f64> = steps.iter().map(|step| share(step).unwrap()).collect();
         assert!(shares.windows(2).all(|w| w[0] < w[1]), "{shares:?}");
         assert!(shares.iter().all(|s| (0.0..1.0).contains(s)));
-        assert_eq!(share("planting: 3 of 12 effects"), Some(0.25));
-        assert_eq!(share("planting: 0 of 0 effects"), None);
+        assert_eq!(share("testing: 3 of 12 effects"), Some(0.25));
+        assert_eq!(share("testing: 0 of 0 effects"), None);
         assert_eq!(share("something else"), None);
     }
 

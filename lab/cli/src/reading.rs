@@ -17,8 +17,8 @@ pub struct Columns {
     /// Torque (tau_i to tau_o) or displacement (x to f) [default: from the column names].
     #[arg(long, value_enum)]
     pub mode: Option<ModeName>,
-    /// Time column [default: `t`, `time`, `timestamp` or a unit such as `ms`]. The name of any
-    /// column may be followed by its unit: 'tick [ms]'.
+    /// Time column [default: `t`, `time`, `timestamp` or a unit such as `ms`]. Any column name may
+    /// be followed by a unit, as in 'tick [ms]'.
     #[arg(long, value_name = "COL")]
     pub time: Option<String>,
     /// Input column [default: `tau_i` or `x`].
@@ -27,8 +27,8 @@ pub struct Columns {
     /// Output column [default: `tau_o` or `f`].
     #[arg(long, value_name = "COL")]
     pub output: Option<String>,
-    /// A further channel: phi_p, phi_d (angles), temperature, load, or any other name; COL may be
-    /// the difference A-B or the sum A+B of two columns.
+    /// Add a channel: phi_p or phi_d (angles), temperature, load, or any other name. COL may be the
+    /// difference A-B or the sum A+B of two columns.
     #[arg(long, value_name = "NAME=COL")]
     pub channel: Vec<String>,
     /// Discard the samples before this time, in seconds after the first time stamp [default: 0].
@@ -38,13 +38,14 @@ pub struct Columns {
     /// last sample].
     #[arg(long, alias = "until", value_name = "SECONDS")]
     pub end: Option<f64>,
-    /// Cut-off frequency of the zero-phase low-pass [Hz] [default: from the input's spectrum].
+    /// Cut-off frequency of the zero-phase low-pass filter [Hz] [default: from the input's
+    /// spectrum].
     #[arg(long, value_name = "HZ")]
     pub cutoff: Option<f64>,
-    /// Compute the time from the row number at this sample rate.
+    /// Compute the time from the row number and this sampling rate [Hz].
     #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
-    /// Line of the column names, counted from 1 [default: detected].
+    /// Line number of the column names, counted from 1 [default: detected].
     #[arg(long, value_name = "N")]
     pub header_line: Option<usize>,
     /// Read only segment N, counted from 1, of a text file that repeats its column names [default:
@@ -54,12 +55,12 @@ pub struct Columns {
     /// Sheet of an Excel workbook [default: the first one with a table].
     #[arg(long, value_name = "NAME")]
     pub sheet: Option<String>,
-    /// Column names of a text file without a header: t,x,f or 't [ms],,x [mm],f [N]'. An empty
-    /// name excludes its column.
+    /// Column names of a text file without a header, such as t,x,f or 't [ms],,x [mm],f [N]'. An
+    /// empty name excludes its column.
     #[arg(long, value_delimiter = ',', value_name = "A,B,…")]
     pub names: Vec<String>,
-    /// Drop rows with an empty cell, a NaN or a repeated time stamp: each becomes a gap
-    /// [default: such a record is refused].
+    /// Drop rows with an empty cell, a NaN or a repeated time stamp, and treat each as a gap
+    /// [default: such rows are an error].
     #[arg(long)]
     pub drop_bad: bool,
 }
@@ -68,11 +69,11 @@ pub struct Columns {
 pub struct Reading {
     #[command(flatten)]
     pub columns: Columns,
-    /// Baseline model: bouc-wen and any effects; NAME@CHANNEL reads a channel
+    /// Parts of the baseline model: bouc-wen and any effects. NAME@CHANNEL reads a channel
     /// [default: bouc-wen].
     #[arg(long, alias = "declare", value_delimiter = ',', value_name = "A,B,…")]
     pub baseline: Vec<String>,
-    /// Add at most N terms, 0 to 8; 0 fits only the baseline model.
+    /// Add at most N terms, 0 to 8. With 0, fit only the baseline model.
     #[arg(long, alias = "rounds", value_name = "N")]
     pub max_terms: Option<usize>,
     /// Stop the search after this time and print the best model so far. The result may then depend
@@ -96,7 +97,7 @@ impl Columns {
         if let Some(cutoff) = self.cutoff {
             if !(cutoff.is_finite() && cutoff > 0.0) {
                 return Err(format!(
-                    "`--cutoff {cutoff}` is out of range; it must be above 0 Hz"
+                    "`--cutoff {cutoff}` is out of range; it must be positive"
                 ));
             }
         }
@@ -138,7 +139,7 @@ impl Reading {
         }
         if let Some(limit) = self.time_limit.filter(|s| !(s.is_finite() && *s > 0.0)) {
             return Err(format!(
-                "`--time-limit {limit}` is out of range; it must be above 0 s"
+                "`--time-limit {limit}` is out of range; it must be positive"
             ));
         }
         Ok(Asked {
@@ -189,7 +190,7 @@ pub fn files(arguments: &[PathBuf]) -> Result<Files, Failure> {
         if found.is_empty() {
             let but = match left_out.len() {
                 0 => String::new(),
-                count => format!(" but {}", vectors(count)),
+                count => format!(" except {}", vectors(count)),
             };
             return Err(format!("{text}: no file matches this pattern{but}"));
         }

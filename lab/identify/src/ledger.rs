@@ -31,9 +31,9 @@ impl Gate {
     pub fn words(self) -> &'static str {
         match self {
             Self::P => "not significant",
-            Self::Blocks => "not on enough blocks",
+            Self::Blocks => "too few blocks improve",
             Self::StopCheck => "worse on the selection segment",
-            Self::Superseded => "superseded by later ones",
+            Self::Superseded => "superseded by later terms",
         }
     }
 }

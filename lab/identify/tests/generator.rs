@@ -147,7 +147,7 @@ fn several_effects_and_channels_can_be_asked_for() {
         ..short(Mode::Torque)
     };
     let error = generate(&unknown).unwrap_err().to_string();
-    assert_eq!(error, "effect `viscous`: there is no channel `psi`");
+    assert_eq!(error, "effect `viscous`: the record has no channel `psi`");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn numbers(facts: &CheckFacts) -> Markup {
     html! {
         dl class="numbers" {
             div id="held-out" {
-                dt { "Held-out part of its own record → this record" }
+                dt { "Held-out part of the model's own record → this record" }
                 dd {
                     span class="was" {
                         @if let Some(own) = facts.reference { (data(own, &percent(own))) } @else { "unknown" }
@@ -80,7 +80,7 @@ fn numbers(facts: &CheckFacts) -> Markup {
             }
         }
         p class="note" {
-            "Nothing was refitted. Errors are root mean squares of the filtered output's residual, as a share of that output's standard deviation."
+            "Nothing was refitted. Each error is the RMS residual of the filtered output, relative to the standard deviation of this output."
         }
     }
 }
@@ -129,7 +129,7 @@ fn signals(facts: &CheckFacts, figures: &Figures) -> Markup {
         @if facts.left_out > 0.0 {
             p {
                 "The first " (format!("{:.1}", facts.left_out))
-                " s are ignored: the input before them is unknown."
+                " s are excluded, because the earlier input is unknown."
             }
         }
         (of_files(&figures.signals))
@@ -153,8 +153,8 @@ fn reasons(facts: &CheckFacts) -> Markup {
         @for one in &facts.outside {
             p {
                 (quantity(&one.channel, one.unit.as_deref())) ": the " (one.quantity) " goes from " (pair(one.here))
-                "; the fit covered " (pair(one.seen)) " (" (format!("{:.0}", 100.0 * one.share))
-                " % of the samples lie outside)."
+                ", but the fit covered " (pair(one.seen)) " (" (format!("{:.0}", 100.0 * one.share))
+                " % of the samples are outside)."
             }
         }
     }

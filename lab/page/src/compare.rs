@@ -72,7 +72,7 @@ impl Compare<'_> {
                 p class="note" {
                     "The figures follow Figures 7 to 10 of "
                     cite { "Direct Torque Control for Cable Conduit Mechanisms for the Robotic Foot for Footwear Testing" }
-                    "; the plant here is simulated. Each figure shows the first seed; the tables list all seeds."
+                    ", but the plant here is simulated. Each figure shows the first seed. The tables list all seeds."
                 }
             },
         };
@@ -137,7 +137,7 @@ impl<'a> Part<'a> {
             html! { tr {
                 th scope="row" { (line.controller) }
                 @if let Some(at) = line.ran_away {
-                    td class="number" colspan="3" { "ran away at " (format!("{at:.2}")) " s" }
+                    td class="number" colspan="3" { "diverged at " (format!("{at:.2}")) " s" }
                 } @else {
                     td class="number" { (cell(line.rmse_true.mean, line.rmse_true.sd)) }
                     td class="number" { (cell(line.rmse_measured.mean, line.rmse_measured.sd)) }
@@ -148,7 +148,7 @@ impl<'a> Part<'a> {
         };
         let rows: Vec<Markup> = self.lines.iter().map(row).collect();
         let label = format!(
-            "Errors [N·m] from {} s on, {}",
+            "Errors [N·m] after {} s, {}",
             heading.from, self.configuration
         );
         let head = [
@@ -270,7 +270,7 @@ impl<'a> Part<'a> {
             .filter_map(|(moves, chart)| moves.then_some(chart))
             .collect();
         html! {
-            @if charts.is_empty() { p { "None of these laws adapts." } }
+            @if charts.is_empty() { p { "None of these control laws adapts." } }
             div class="grid-of" { @for chart in &charts { (chart.figure()) } }
         }
     }
@@ -294,7 +294,7 @@ fn following(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
 fn tracking_error(id: &str, line: &Line, x: Axis, y: Axis) -> Chart {
     let title = format!("{}: error", line.controller);
     let text = format!(
-        "Output minus reference with {}; rms {:.4} N·m over the steady part.",
+        "Output minus reference with {}. The rms is {:.4} N·m over the steady part.",
         line.controller, line.first.steady.rmse_true
     );
     Chart::new(id, &title, &text, x, y)

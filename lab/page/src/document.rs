@@ -109,7 +109,7 @@ pub(crate) fn page(opening: &Opening<'_>, sections: &[Section], from: &Provenanc
                     }
                     (origin(from))
                 }
-                footer { p { "bowden " (from.version) ". This page is self-contained: it loads nothing and runs no script." } }
+                footer { p { "bowden " (from.version) ". This page is self-contained. It loads nothing and runs no script." } }
             }
         }
     };

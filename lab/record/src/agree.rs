@@ -27,7 +27,7 @@ pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
     for (index, later) in records.iter().enumerate() {
         if let Some(earlier) = records[..index].iter().find(|earlier| same(earlier, later)) {
             let error = RecordError::new(format!(
-                "the same samples as in {}; give each record once",
+                "the samples are the same as in {}; give each record once",
                 earlier.path
             ));
             return Err(error.in_file(&later.path));
@@ -43,7 +43,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     };
     if first.mode != other.mode {
         return Err(RecordError::new(format!(
-            "input for {} mode; the mode must be {}, as in {}",
+            "this is the input of {} mode, but the mode must be {}, as in {}",
             words(other.mode),
             words(first.mode),
             first.path
@@ -52,7 +52,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     }
     let missing = |name: &str| {
         RecordError::new(format!(
-            "no such channel, but {} has one; all files must have the same channels",
+            "the file has no such channel, but {} has one; all files must have the same channels",
             first.path
         ))
         .on(name)
@@ -119,7 +119,7 @@ fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<Stri
         _ => None,
     };
     let Some(factor) = known else {
-        let message = format!("has {from}; it must have {to}, as in {path}");
+        let message = format!("the column has {from}, but it must have {to}, as in {path}");
         return Err(RecordError::new(message).on(&other.name));
     };
     other.unit.clone_from(&first.unit);

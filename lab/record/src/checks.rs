@@ -27,13 +27,13 @@ pub(super) fn options(options: &Options) -> Result<(), RecordError> {
     }
     if options.header_line.is_some() && !options.names.is_empty() {
         return refuse(
-            "--names is for a file without names, and --header-line is for a file with names"
+            "--names and --header-line cannot be combined: --names is for a file without column names"
                 .to_owned(),
         );
     }
     match options.rate {
         Some(rate) if !(1e-9..=1e12).contains(&rate) => refuse(format!(
-            "--rate {rate} is out of range; it must be above 0 Hz"
+            "--rate {rate} is out of range; it must be positive"
         )),
         _ => Ok(()),
     }
@@ -53,13 +53,13 @@ pub(super) fn record(table: &Table, header: &Header, roles: &Roles) -> Result<()
         let (low, high) = range(values);
         if high - low <= 1e-12 * low.abs().max(high.abs()) {
             let line = table.lines.first().copied().unwrap_or(header.line);
-            let message = format!("the {role} is {low} in every sample, but it must move");
+            let message = format!("the {role} is {low} in every sample, but it must vary");
             return Err(RecordError::at(line, message).on(name(index)));
         }
     }
     if input == output {
         let message = format!(
-            "the output equals the input `{}` in every sample: it must be the resulting force or torque",
+            "the output equals the input `{}` in every sample, but it must be the resulting force or torque",
             name(roles.input)
         );
         let line = table.lines.first().copied().unwrap_or(header.line);

@@ -52,10 +52,8 @@ pub(super) fn is_minutes(stamp: &str) -> bool {
 pub(super) fn restart(stamp: &str) -> &'static str {
     match (has_date(stamp), is_minutes(stamp)) {
         (true, _) => "",
-        (_, true) => {
-            "; does the record pass a full hour? Then write the hours too, as in 01:59:50.2"
-        }
-        _ => "; does the record pass midnight? Then add a date",
+        (_, true) => "; if the record passes a full hour, write the hours too, as in 01:59:50.2",
+        _ => "; if the record passes midnight, add a date",
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
     if bytes.is_empty() {
         return Err(RecordError::at(
             1,
-            "the file is empty; a header with column names is missing",
+            "the file is empty, but a header with column names is needed",
         ));
     }
     let (text, note) = match wide(bytes) {
@@ -33,7 +33,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
     Ok(Decoded {
         is_ended: text.ends_with(['\n', '\r']),
         text: lines(text),
-        note: note.map(|name| format!("the text is {name}")),
+        note: note.map(|name| format!("text encoding: {name}")),
     })
 }
 
@@ -73,7 +73,7 @@ fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, R
     if damaged {
         let before = text.split('\u{fffd}').next().unwrap_or_default();
         let message = format!(
-            "a character is not valid {}: the file is damaged",
+            "the file is damaged: a character is not valid {}",
             own.name()
         );
         return Err(RecordError::at(line_of(before), message));
@@ -81,7 +81,7 @@ fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, R
     match text.find('\0') {
         Some(at) => Err(RecordError::at(
             line_of(&text[..at]),
-            "a character is NUL: a binary file; give CSV text",
+            "a character is NUL, so the file is binary; give CSV text",
         )),
         None => Ok(text),
     }
@@ -96,7 +96,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
             .count()
     };
     if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
-        let message = format!("byte {offset} is NUL: a binary file; give CSV text");
+        let message = format!("byte {offset} is NUL, so the file is binary; give CSV text");
         return Err(RecordError::at(line_of(offset), message));
     }
     let error = match std::str::from_utf8(bytes) {
@@ -109,7 +109,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
     if !bytes[..offset].is_ascii() {
         return refuse(
             offset,
-            format!("byte {offset} (0x{byte:02X}) is not UTF-8, but characters before it are; save the file as UTF-8"),
+            format!("byte {offset} (0x{byte:02X}) is not UTF-8, unlike earlier characters; save the file as UTF-8"),
         );
     }
     let control = |byte: &u8| matches!(byte, 0x01..=0x08 | 0x0e..=0x1f | 0x7f | 0x81 | 0x8d | 0x8f | 0x90 | 0x9d);
@@ -117,7 +117,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
         return refuse(
             at,
             format!(
-                "byte {at} (0x{:02X}) is not valid in UTF-8 or Windows-1252; save the file as UTF-8",
+                "byte {at} (0x{:02X}) is invalid in UTF-8 and in Windows-1252; save the file as UTF-8",
                 bytes[at]
             ),
         );

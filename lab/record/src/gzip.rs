@@ -14,7 +14,7 @@ pub(super) fn unpack(bytes: &[u8]) -> Result<Vec<u8>, RecordError> {
         Err(error) => Err(RecordError::new(format!(
             "the gzip file is damaged: {error}"
         ))),
-        Ok(_) if unpacked.len() as u64 > BYTES => Err(too_large(" unpacked")),
+        Ok(_) if unpacked.len() as u64 > BYTES => Err(too_large(" when unpacked")),
         Ok(_) => Ok(unpacked),
     }
 }

@@ -186,7 +186,7 @@ fn tell_apart(columns: &mut [Named]) {
 pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     let (text, before) = rows.rest();
     let refuse = |what: &str| {
-        let message = format!("the {what}; a header with column names is missing");
+        let message = format!("the {what}, but a header with column names is needed");
         Err(RecordError::at(before + 1, message))
     };
     if text
@@ -224,7 +224,7 @@ pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
         return refuse("line has no names");
     }
     if named.all(|column| number::is_number(&column.name)) {
-        let message = "the line holds numbers; a header with column names is missing; --names t,x,f names the columns of a file without a header";
+        let message = "the line contains numbers, but it must be a header with column names; for a file without a header, use --names t,x,f";
         return Err(RecordError::at(before + 1, message));
     }
     Ok(Header::with(line, columns))
@@ -259,7 +259,10 @@ pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Stri
 /// The error for a name that no column has.
 pub(super) fn missing(header: &Header, name: &str, hint: &str) -> RecordError {
     let meant = nearest(name, header.columns.iter().map(|c| c.name.as_str()));
-    let message = format!("no such column among {}{meant}; {hint}", header.list());
+    let message = format!(
+        "no such column; the columns are {}{meant}; {hint}",
+        header.list()
+    );
     RecordError::at(header.line, message).on(name)
 }
 
@@ -273,7 +276,7 @@ pub(super) fn twice(header: &Header, counts: impl Fn(usize) -> bool) -> Result<(
                 let (first, second) = (first + 1, index + 1);
                 let own = match header.line {
                     0 => "",
-                    _ => "; --names A,B,… gives each column a name of its own",
+                    _ => "; --names A,B,… gives each column its own name",
                 };
                 let message = format!("named twice, as columns {first} and {second}{own}");
                 return Err(RecordError::at(header.line, message).on(&column.name));

@@ -58,7 +58,7 @@ pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String
         }
     }
     Some(format!(
-        "`{name}` changes only in every {}th row ({:.1} Hz), which delays it by {:.3} ms: it is replaced by a curve through its updates",
+        "`{name}` changes only in every {}th row ({:.1} Hz), which delays it by {:.3} ms; a curve through its updates replaces it",
         two_decimals(period),
         1.0 / (period * step),
         500.0 * (period - 1.0) * step

@@ -99,7 +99,7 @@ impl Kept {
             false => (name(roles.output), name(roles.input)),
         };
         format!(
-            "`{own}` and `{moved}` have separate time stamps ({} and {} readings): `{moved}` interpolated linearly at the stamps of `{own}`",
+            "`{own}` and `{moved}` have separate time stamps ({} and {} readings); `{moved}` was interpolated linearly at the stamps of `{own}`",
             grid.len(),
             other.len()
         )

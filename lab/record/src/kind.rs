@@ -65,7 +65,7 @@ const OTHERS: [(&[u8], &str, &str); 15] = [
     ),
     (
         b"{\\rtf",
-        "a word processor's file",
+        "a word-processor document",
         "export the values as CSV",
     ),
 ];
@@ -80,7 +80,7 @@ const V7: &str = "save it in MATLAB with `save -v7`";
 /// A message with the unsupported format, and what to do instead.
 pub(super) fn of(bytes: &[u8]) -> Result<Kind, RecordError> {
     let refuse = |what: &str, instead: &str| {
-        let message = format!("is {what}, which bowden does not read; {instead}");
+        let message = format!("the file is {what}, which bowden does not read; {instead}");
         Err(RecordError::new(message))
     };
     if bytes.starts_with(b"\x1f\x8b") {

@@ -78,7 +78,7 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
     let refuse =
         |message: String| Err(RecordError::new(format!("--header-line {line}: {message}")));
     let Some(before) = line.checked_sub(1) else {
-        return refuse("lines count from 1".to_owned());
+        return refuse("lines are counted from 1".to_owned());
     };
     if before == 0 {
         return Ok((0, 0));
@@ -86,7 +86,7 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
     let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
     match ends.map(|(at, _)| at + 1).nth(before - 1) {
         Some(start) => Ok((start, before)),
-        None => refuse(format!("the text has {} lines", text.lines().count())),
+        None => refuse(format!("the file has only {} lines", text.lines().count())),
     }
 }
 
@@ -202,7 +202,7 @@ fn units_row(
         }
         if is_strange {
             said.push(format!(
-                "unit `{}` of `{}` is unknown: kept as it is",
+                "unit `{}` of `{}` is unknown and was kept",
                 shown(cell, NAME_LENGTH),
                 shown(&column.name, NAME_LENGTH)
             ));
@@ -326,7 +326,7 @@ fn nameless<'a>(
             ));
         };
         let message = format!(
-            "{} cells, but --names lists {}",
+            "the row has {} cells, but --names lists {}",
             head.lines[line].1.len(),
             names.len()
         );
@@ -407,7 +407,7 @@ fn units_between<'a>(
     if !others.is_empty() {
         let lines = if others.len() == 1 { "line" } else { "lines" };
         let list = others.join(", ");
-        let note = format!("{lines} {list} between names and values: ignored");
+        let note = format!("{lines} {list} between names and values ignored");
         table.notes.push(note);
     }
     Ok(table)

@@ -286,7 +286,7 @@ fn parse_lines(bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
         Kind::Gzip => {
             let unpacked = gzip::unpack(bytes)?;
             let mut record = unpacked_as(kind::of(&unpacked)?, &unpacked, options)?;
-            record.notes.insert(0, "unpacked from gzip".to_owned());
+            record.notes.insert(0, "gzip file unpacked".to_owned());
             Ok(record)
         }
         kind => unpacked_as(kind, bytes, options),
@@ -330,7 +330,7 @@ fn table_record(decoded: Decoded<'_>, options: &Options) -> Result<Record, Recor
     let table = segments::of(table, options)?;
     let mut notes: Vec<String> = decoded.note.into_iter().collect();
     if matches!(text, Cow::Owned(_)) {
-        notes.push("blanks separate the columns".to_owned());
+        notes.push("columns are separated by blanks".to_owned());
     }
     notes.extend(table.notes);
     let rows = Source::Text(Box::new(table.rows));

@@ -30,6 +30,6 @@ pub(super) fn head(text: &str) -> impl Iterator<Item = (usize, &str)> {
 pub(super) fn too_large(how: &str) -> RecordError {
     let size = BYTES >> 20;
     RecordError::new(format!(
-        "is larger than {size} MiB{how}; cut it into records"
+        "the file is larger than {size} MiB{how}; split it into records"
     ))
 }

@@ -37,7 +37,7 @@ pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)
     match (header.value(bytes)?, header.shape.as_slice()) {
         (Value::Structures(mut rows), _) if names.is_empty() => Ok(rows.pop().unwrap_or_default()),
         (Value::Structures(_), _) => {
-            Err("--names: the fields of the array have names already".to_owned())
+            Err("--names: the fields of the array already have names".to_owned())
         }
         (matrix @ Value::Numbers { .. }, [rows, columns]) => {
             let count = *rows.min(columns);
@@ -51,13 +51,13 @@ pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)
             Ok(vec![("data".to_owned(), matrix), ("names".to_owned(), names)])
         }
         (Value::Numbers { .. }, [values]) => Err(format!(
-            "is one column of {values} numbers; save a two-dimensional array, or name the columns with `np.savez`"
+            "the array is one column of {values} numbers; save a two-dimensional array, or name the columns with `np.savez`"
         )),
         (_, shape) if shape.len() != 2 && !header.fields.is_empty() => Err(format!(
-            "is an array with {} dimensions; it must have two, with one column per quantity",
+            "the array has {} dimensions, but it must have two, with one column per quantity",
             shape.len()
         )),
-        _ => Err("is an array of other values than real numbers".to_owned()),
+        _ => Err("the array does not contain real numbers".to_owned()),
     }
 }
 
@@ -96,7 +96,7 @@ fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
     let packed = number::<4>(bytes, entry + 20)?;
     let local = number::<4>(bytes, entry + 42)?;
     if flags % 2 == 1 {
-        return Err("is encrypted; save it without a password".to_owned());
+        return Err("the file is encrypted; save it without a password".to_owned());
     }
     let names = number::<2>(bytes, local + 26)? + number::<2>(bytes, local + 28)?;
     let packed = slice(bytes, local + 30 + names, packed)?;
@@ -114,13 +114,13 @@ fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
     };
     read.map_err(|error| damaged(&error.to_string()))?;
     if file.len() as u64 > left {
-        return Err(too_large(" unpacked").message().to_owned());
+        return Err(too_large(" when unpacked").message().to_owned());
     }
     let mut own = Crc::new();
     own.update(&file);
     match own.sum() as usize == check {
         true => Ok(file),
-        false => Err(damaged("a check sum is wrong")),
+        false => Err(damaged("a checksum is wrong")),
     }
 }
 
@@ -182,7 +182,7 @@ impl Header {
         }
         let rows =
             cells.and_then(|cells| Some(data.get(..cells.checked_mul(size)?)?.chunks_exact(size)));
-        let rows = rows.ok_or_else(|| damaged("an array ends early"))?;
+        let rows = rows.ok_or_else(|| damaged("an array is truncated"))?;
         if let [(name, kind)] = fields.as_slice() {
             return Ok(match (kind.letter, shape.as_slice()) {
                 ('U' | 'S', [_]) => Value::Text(rows.map(|cell| kind.text(cell)).collect()),
@@ -333,5 +333,5 @@ fn number<const N: usize>(bytes: &[u8], at: usize) -> Result<usize, Damage> {
 
 fn slice(bytes: &[u8], at: usize, length: usize) -> Result<&[u8], Damage> {
     let own = bytes.get(at..).and_then(|rest| rest.get(..length));
-    own.ok_or_else(|| damaged("the zip archive ends early"))
+    own.ok_or_else(|| damaged("the zip archive is truncated"))
 }

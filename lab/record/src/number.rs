@@ -116,7 +116,7 @@ fn with_comma(cell: &str) -> Option<f64> {
 fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<f64, RecordError> {
     let refuse = |message: String| Err(RecordError::at(line, message).on(column));
     if cell.is_empty() {
-        let message = "the cell is empty, but must be a number; --drop-bad drops such rows";
+        let message = "the cell is empty, but it must be a number; --drop-bad drops such rows";
         return Err(RecordError::at(line, message).on(column).from(Bad::Empty));
     }
     let text = shown(cell, SHOWN);
@@ -176,7 +176,7 @@ fn no_number(cell: &str) -> String {
     }
     match has_thousands(cell) {
         true => format!(
-            "`{text}` is not a number: bowden does not read thousands separators; use digits without them"
+            "`{text}` is not a number, because bowden does not read thousands separators; remove the separators"
         ),
         false => format!("`{text}` is not a number"),
     }

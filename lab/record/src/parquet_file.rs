@@ -39,7 +39,7 @@ impl File {
             .collect();
         if places.is_empty() {
             return Err(RecordError::new(
-                "no numeric column; each quantity must have one",
+                "the file has no numeric column; each quantity must have one",
             ));
         }
         Ok(Self { reader, places })
@@ -75,7 +75,7 @@ impl File {
             let known = group.columns().get(place).map(|chunk| chunk.compression());
             if let Some(unread) = known.and_then(unread) {
                 let message = format!(
-                    "is compressed with {unread}, which bowden does not read; write the file with snappy or gzip"
+                    "the column is compressed with {unread}, which bowden does not read; write the file with snappy or gzip"
                 );
                 return Err(RecordError::new(message).on(&name));
             }

@@ -85,7 +85,10 @@ pub(super) fn of_any(header: &mut Header, options: &Options) -> Result<Roles, Re
     let time = time(header, options).ok();
     let mut others = (0..header.columns.len()).filter(|index| Some(*index) != time);
     let (Some(input), Some(output)) = (others.next(), others.next()) else {
-        return Err(RecordError::at(header.line, "has fewer than two columns"));
+        return Err(RecordError::at(
+            header.line,
+            "the file has fewer than two columns",
+        ));
     };
     Ok(Roles {
         mode: Mode::Torque,
@@ -178,12 +181,15 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
         Err(RecordError::at(header.line, message).on(&header.columns[index].name))
     };
     if input == output {
-        return refuse(input, "cannot be both input and output".to_owned());
+        return refuse(
+            input,
+            "this column cannot be both input and output".to_owned(),
+        );
     }
     if let Some(time) = time.filter(|time| *time == input || *time == output) {
         return refuse(
             time,
-            "is the time and cannot also be input or output".to_owned(),
+            "this column is the time, so it cannot also be input or output".to_owned(),
         );
     }
     let channels = channels(header, options, mode)?;
@@ -192,7 +198,7 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
         let name = shown(name, NAME_LENGTH);
         return refuse(
             output,
-            format!("is the output and cannot also be channel `{name}`"),
+            format!("this column is the output, so it cannot also be channel `{name}`"),
         );
     }
     let mut roles = Roles {

@@ -49,7 +49,7 @@ impl Dropped {
         let kinds = [
             (self.empty, "with an empty cell"),
             (self.not_numbers, "with NaN"),
-            (self.repeated, "with the time stamp of the row before"),
+            (self.repeated, "with a repeated time stamp"),
         ];
         let some = kinds.iter().filter(|(count, _)| *count > 0);
         let list: Vec<String> = some
@@ -132,14 +132,14 @@ impl<'a> Reader<'a> {
             .comments
             .first()
             .map(|first| match self.comments.len() {
-                1 => format!("line {first} ignored: a comment"),
-                count => format!("{count} lines ignored, from line {first} on: comments"),
+                1 => format!("line {first} ignored because it is a comment"),
+                count => format!("{count} comment lines ignored, the first one in line {first}"),
             });
         let columns = &self.header.columns;
         let has_name = |cells: &usize| columns[*cells..].iter().any(|c| !c.name.is_empty());
         let short = self.short.filter(has_name).map(|cells| {
             format!(
-                "each row has only {cells} of the header's {} cells; the columns without cells are not read",
+                "each row has only {cells} cells, but the header has {}; the columns without cells are not read",
                 columns.len()
             )
         });
@@ -238,7 +238,7 @@ impl<'a> Reader<'a> {
         }
         if rows.may_be_cut() && self.lacks_its_end(&error) {
             return Ok(format!(
-                "line {first}, the last one, dropped: it is truncated"
+                "the last line, {first}, is truncated and was dropped"
             ));
         }
         // Thousands in the stamps let time run backwards.
@@ -267,7 +267,11 @@ impl<'a> Reader<'a> {
         {
             return Ok(());
         }
-        let mut message = format!("{} cells, but the header has {}", row.len(), columns.len());
+        let mut message = format!(
+            "the row has {} cells, but the header has {}",
+            row.len(),
+            columns.len()
+        );
         if row.last > row.line {
             message += &format!("; a quote extends the row to line {}", row.last);
         }
@@ -384,17 +388,19 @@ fn long_enough(left: usize, clock: &Clock, why: &str, line: usize) -> Result<(),
     let all = clock.rows();
     let samples = if left == 1 { "sample" } else { "samples" };
     let cut = match left < all {
-        true => format!(" of {all} are left {why}"),
+        true => format!(" of {all} remain {why}"),
         false => String::new(),
     };
     // An option in the file's own stamps, which may be seconds since 1970.
     let counts = match all > 0 && clock.cut() == all {
         true => format!(
-            "; --start and --end count seconds from the first time stamp; the last one is at {:.3} s",
+            "; --start and --end are in seconds after the first time stamp, and the last time stamp is at {:.3} s",
             clock.last()
         ),
         false => String::new(),
     };
-    let message = format!("too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}");
+    let message = format!(
+        "the record is too short: {left} {samples}{cut}; the minimum is {MIN_SAMPLES}{counts}"
+    );
     Err(RecordError::at(line, message))
 }

@@ -29,16 +29,16 @@ pub(super) fn of<'a>(mut table: Table<'a>, options: &Options) -> Result<Table<'a
         }
     };
     if let Some(other) = own.iter().find(|own| !own.is_alike) {
-        let message = "the column names are repeated, but the lines below them differ from those below the first ones; put the records into separate files";
+        let message = "the column names are repeated, but the lines below them differ from the lines below the first names; write the records to separate files";
         return Err(RecordError::at(other.place.names, message));
     }
     match (own.as_slice(), options.rate) {
         ([_, second, ..], Some(_)) => {
-            let why = "the column names are repeated: without a time column bowden cannot tell whether the record continues";
+            let why = "the column names are repeated, and without a time column bowden cannot tell whether the record continues";
             return Err(ask(second.place, why));
         }
         ([_, second, ..], None) => table.notes.push(format!(
-            "the column names are repeated, first in line {}: {count} segments, read as one record",
+            "the column names are repeated, first in line {}; {count} segments were read as one record",
             second.place.names
         )),
         ([one], _) if count > 1 => table.notes.push(format!(
@@ -58,7 +58,7 @@ pub(super) fn restarts(place: Place, last: f64, stamp: f64) -> RecordError {
         _ => "several records",
     };
     let why = format!(
-        "{records}: the column names are repeated and the time restarts, from {last} to {stamp} s"
+        "the file contains {records}: the column names are repeated, and the time restarts from {last} to {stamp} s"
     );
     ask(place, &why)
 }

@@ -96,7 +96,7 @@ impl Series {
             None => Err(RecordError::at(
                 header.line,
                 format!(
-                    "has {}; it must have {}, as `{}` does, so that the two can be added or subtracted",
+                    "the column has {}, but it must have {}, as `{}` has, so that the two can be added or subtracted",
                     unit(&b.unit),
                     unit(&a.unit),
                     shown(&a.name, NAME_LENGTH)
@@ -149,7 +149,7 @@ pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Se
         }
         ([], _) => require(header, text, HINT).map(Series::Column),
         _ => Err(RecordError::new(format!(
-            "--channel NAME={}: ambiguous, because it can be read as several sums of two columns",
+            "--channel NAME={} is ambiguous, because it can mean several sums of two columns",
             shown(text, NAME_LENGTH)
         ))),
     }

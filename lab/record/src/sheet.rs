@@ -49,11 +49,11 @@ pub(super) fn of(kind: Kind, bytes: &[u8], options: &Options) -> Result<Columns,
             })
         }
         Kind::Gzip => Err(RecordError::new(
-            "is compressed with gzip twice; unpack it once",
+            "the file is compressed with gzip twice; unpack it once",
         )),
         #[allow(unreachable_patterns)]
         _ => Err(RecordError::new(
-            "is of a kind that this build of bowden does not read; save it as CSV",
+            "this build of bowden does not read this file format; save the file as CSV",
         )),
     }
 }
@@ -114,17 +114,17 @@ impl Columns {
 fn without_lines(is_given: bool, options: &Options) -> Result<(), RecordError> {
     if let Some(line) = options.header_line {
         return Err(RecordError::new(format!(
-            "--header-line {line}: the file has no lines; its columns have names already"
+            "--header-line {line}: the file has no lines, and its columns already have names"
         )));
     }
     if let Some(number) = options.segment {
         return Err(RecordError::new(format!(
-            "--segment {number}: the file is not text and has no segments"
+            "--segment {number}: the file is not text, so it has no segments"
         )));
     }
     if !is_given && !options.names.is_empty() {
         return Err(RecordError::new(
-            "--names: the file is not text; its columns have names already",
+            "--names: the file is not text, and its columns already have names",
         ));
     }
     Ok(())
@@ -183,7 +183,7 @@ fn same_length(header: &Header, roles: &Roles, lengths: &[usize]) -> Result<usiz
     let length = lengths[first];
     match roles.read().find(|index| lengths[*index] != length) {
         Some(other) => Err(RecordError::new(format!(
-            "has {} values; it must have {length}, as `{}` does",
+            "the column has {} values, but it must have {length}, as `{}` does",
             lengths[other],
             super::error::shown(&header.columns[first].name, NAME_LENGTH)
         ))

@@ -81,7 +81,7 @@ impl Source<'_> {
     pub(super) fn note(&self) -> Option<String> {
         match self {
             Self::Text(rows) if rows.notation().is_comma() => {
-                Some("numbers have a decimal comma".to_owned())
+                Some("decimal commas were read".to_owned())
             }
             _ => None,
         }

@@ -137,24 +137,24 @@ pub(super) fn fill(
         let asked = options.channels.iter().any(|(other, _)| other == name);
         said.push(match readings {
             0 if asked => {
-                let message = "has no number in any row of the record";
+                let message = "there is no number in any row of the record";
                 return Err(RecordError::at(header.line, message).on(own));
             }
-            0 => format!("`{own}` has no number in any row: excluded"),
+            0 => format!("`{own}` has no number in any row and was excluded"),
             _ => {
                 let (all, span) = (
                     at.len(),
                     at.last().unwrap_or(&0.0) - at.first().unwrap_or(&0.0),
                 );
                 let what = match readings {
-                    1 => "one reading, used for all samples".to_owned(),
+                    1 => "its single reading was used for all samples".to_owned(),
                     _ => format!(
-                        "{readings} readings, one in {:.3} s: interpolated linearly",
+                        "its {readings} readings, one every {:.3} s, were interpolated linearly",
                         span / readings as f64
                     ),
                 };
                 format!(
-                    "`{own}` has no number in {} of {all} rows, and {what}",
+                    "`{own}` has no number in {} of {all} rows; {what}",
                     all - readings
                 )
             }

@@ -190,18 +190,16 @@ impl<'a> Rows<'a> {
         let refuse = |message: String| Err(RecordError::at(self.line, message));
         if line.trim().is_empty() {
             // The reader passed over it, to the next row that is not blank.
-            return refuse("the line is blank, but rows follow it".to_owned());
+            return refuse("the line is blank, although rows follow".to_owned());
         }
         if line.len() > PIECES {
             return refuse(format!(
-                "the line has {} bytes; at most {PIECES} are read",
+                "the line has {} bytes, but at most {PIECES} are allowed",
                 line.len()
             ));
         }
         if length > PIECES + 1 {
-            return refuse(format!(
-                "a quote is not closed, or not within {PIECES} bytes"
-            ));
+            return refuse(format!("a quote is not closed within {PIECES} bytes"));
         }
         if length > rest.len() + 1 {
             return refuse("a quote is not closed before the end of the file".to_owned());

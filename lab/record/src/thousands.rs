@@ -60,7 +60,7 @@ impl Thousands {
         };
         let number = grouped.trim_start_matches('+');
         let message = format!(
-            "`{}` may be {} or {}, next to `{}` without a comma in line {whole_line}; write thousands without a separator, or the same number of decimals in every cell",
+            "`{}` may mean {} or {}, because `{}` in line {whole_line} has no comma; write thousands without a separator, or the same number of decimals in every cell",
             shown(grouped, SHOWN),
             number.replace(',', "."),
             number.replace(',', ""),

@@ -158,7 +158,7 @@ impl Clock {
                     }
                     let cell = row.text(index).filter(|_| self.of_day);
                     let restart = cell.map_or("", clock_time::restart);
-                    let message = format!("time runs backwards, from {last} to {stamp} s{restart}");
+                    let message = format!("the time decreases from {last} to {stamp} s{restart}");
                     let error = RecordError::at(line, message).on(name);
                     return Ok(Stamp::Backwards(t, error));
                 }
@@ -215,7 +215,7 @@ impl Clock {
             if step > 0.0 && step < SHORT_STEP {
                 let name = &header.columns[index].name;
                 let message = format!(
-                    "no unit is stated; if it is s, there are {:.3e} rows per second: set --time '{name} [d]' for days, '{name} [h]' for hours, or '{name} [s]'",
+                    "the time has no unit, and in s there would be {:.3e} rows per second; set --time '{name} [d]' for days, '{name} [h]' for hours, or '{name} [s]'",
                     1.0 / step
                 );
                 return Err(RecordError::at(header.line, message).on(name));
@@ -243,8 +243,7 @@ impl Clock {
                 false => (self.rows - 1) as f64 / self.last,
             };
             format!(
-                "the time stamp repeats at {cell}, as in {} of {} rows: the stamps appear to be rounded; \
-                 --rate HZ computes the time from the row number (about {rate:.1} Hz){drop}",
+                "the time stamp repeats at {cell}, as in {} of {} rows, so the stamps appear to be rounded; --rate HZ computes the time from the row number (about {rate:.1} Hz){drop}",
                 self.repeated, self.rows
             )
         } else {
@@ -267,12 +266,12 @@ impl Clock {
             Some((name, asked)) => {
                 let start = match first.abs() > NO_STAMP {
                     true => format!(
-                        "; the first stamp would be {first:.3e} s, which is thousands of years"
+                        "; in s, the first time stamp of {first:.3e} would be thousands of years"
                     ),
                     false => String::new(),
                 };
                 let shown = shown(name, NAME_LENGTH);
-                let message = format!("{asked}, or '{shown} [s]' if it is s{start}");
+                let message = format!("{asked}, or '{shown} [s]' for seconds{start}");
                 Err(RecordError::at(header.line, message).on(name))
             }
             None => Ok(()),
@@ -293,7 +292,7 @@ impl Clock {
         let (shown, unit) = (shown(name, NAME_LENGTH), likely_unit(step).unwrap_or("ms"));
         (!self.of_day && step >= LONG_STEP).then(|| {
             let asked = format!(
-                "states no unit and was read as seconds; its median step is {step} s: is the unit {unit}? Then set --time '{shown} [{unit}]'"
+                "the time has no unit and was read as seconds, with a median step of {step} s; set --time '{shown} [{unit}]' if the unit is {unit}"
             );
             (name.as_str(), asked)
         })
@@ -312,7 +311,7 @@ impl Clock {
             notes.push(format!("time stamps are {what}"));
         }
         if self.is_ros {
-            notes.push("time stamps are in ns: ROS writes `%time`".to_owned());
+            notes.push("time stamps are in ns, as ROS writes them to `%time`".to_owned());
         }
         if let Some((name, asked)) = self.asked_for_a_unit(median_step(kept)) {
             let name = shown(name, NAME_LENGTH);
@@ -343,7 +342,7 @@ fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<
     match clock_time::seconds(cell) {
         None if all && !cell.is_empty() => {
             let message = format!(
-                "`{}` is not a time of day as in the rows above",
+                "`{}` is not a time of day, unlike the cells above",
                 shown(cell, SHOWN)
             );
             Err(RecordError::at(row.line(), message))
@@ -358,7 +357,7 @@ fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
     let cell = row.text(index).unwrap_or_default();
     match clock_time::expected(cell) {
         Some(expected) => error.but(format!(
-            "`{}` is neither a number nor a time in a known format: {expected}",
+            "`{}` is neither a number nor a time in a known format; {expected}",
             shown(cell, SHOWN)
         )),
         None => error,

@@ -81,7 +81,7 @@ fn is_ratio(text: &str) -> bool {
 pub(super) fn not_of_time(line: usize, name: &str, unit: &str) -> RecordError {
     let (own, unit) = (shown(name, NAME_LENGTH), shown(unit, NAME_LENGTH));
     let message = format!(
-        "unit `{unit}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time '{own} [ms]'"
+        "`{unit}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or with --time '{own} [ms]'"
     );
     RecordError::at(line, message).on(name)
 }

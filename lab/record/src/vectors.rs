@@ -64,12 +64,12 @@ pub(super) fn vectors(
         };
         let objects = match has_objects(&variables) {
             true => {
-                "; only MATLAB can read its objects (tables, time series, outputs of Simulink): extract their vectors, as in `t = out.tout; save('r.mat', 't', …)`"
+                "; only MATLAB can read its objects (tables, time series, Simulink outputs); extract the vectors, as in `t = out.tout; save('r.mat', 't', …)`"
             }
             false => "",
         };
         return Err(RecordError::new(format!(
-            "no vector of real numbers{among}; each column must be one vector, alone or as a field of a structure{objects}"
+            "no vector of real numbers{among}; each column must be one vector, on its own or as a field of a structure{objects}"
         )));
     }
     // A name that two have says nothing.

@@ -40,7 +40,7 @@ pub(super) fn read(bytes: &[u8], options: &Options) -> Result<Sheet, RecordError
         |why: &str| RecordError::new(format!("the workbook is damaged: {}", shown(why, 200)));
     let size = npz::unpacked_size(bytes).map_err(RecordError::new)?;
     if size > BYTES {
-        return Err(too_large(" unpacked"));
+        return Err(too_large(" when unpacked"));
     }
     match catch_unwind(AssertUnwindSafe(|| chosen(bytes, options))) {
         Ok(Ok(sheet)) => Ok(sheet),
@@ -101,7 +101,7 @@ fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
     }
     if tables.is_empty() {
         return Err(refused(
-            "no sheet has a table: two or more columns of numbers below their names",
+            "no sheet contains a table, which is two or more columns of numbers below their names",
         ));
     }
     let (name, text) = tables.swap_remove(wanted.unwrap_or(0));
@@ -113,7 +113,7 @@ fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
     let note = (!others.is_empty()).then(|| {
         let name = shown(name, NAME_LENGTH);
         format!(
-            "sheet `{name}` read; `--sheet` reads another one with a table: {}",
+            "sheet `{name}` read; --sheet selects another sheet with a table: {}",
             others.join(", ")
         )
     });
@@ -135,7 +135,7 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         let (row, column) = (row as usize, column as usize);
         if column >= COLUMNS {
             return Err(refused(format!(
-                "row {} of sheet `{}` has a cell in column {}; a sheet may have at most {COLUMNS} columns",
+                "row {} of sheet `{}` has a cell in column {}, but a sheet may have at most {COLUMNS} columns",
                 row + 1,
                 shown(name, NAME_LENGTH),
                 column + 1
@@ -153,7 +153,7 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         lines.push_str(&value);
         counts[row] = column + 1;
         if lines.len() as u64 > BYTES {
-            return Err(Failure::Refused(too_large(" unpacked")));
+            return Err(Failure::Refused(too_large(" when unpacked")));
         }
     }
     let width = counts.iter().copied().max().unwrap_or(0).max(1);

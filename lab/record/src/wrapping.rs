@@ -25,7 +25,7 @@ pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option
         *value += turns * turn;
     }
     Some(format!(
-        "`{name}` wraps around at {shown} {}: unwrapped",
+        "`{name}` wraps around at {shown} {} and was unwrapped",
         times(leaps.len())
     ))
 }

@@ -29,7 +29,7 @@ impl Running {
         let (name, mode) = (planted.effect.as_str(), recipe.mode);
         if !effects(mode).contains(&name) && !outsiders().contains(&name) {
             return refuse(format!(
-                "effect `{name}`: must be one of {}",
+                "effect `{name}` must be one of {}",
                 effects(mode).join(", ")
             ));
         }
@@ -44,7 +44,9 @@ impl Running {
                     ))
                 }
                 (None, _) => {
-                    return refuse(format!("effect `{name}`: there is no channel `{given}`"))
+                    return refuse(format!(
+                        "effect `{name}`: the record has no channel `{given}`"
+                    ))
                 }
             },
         };
@@ -116,7 +118,7 @@ impl Running {
         };
         if !(size > 0.0 && (wanted / size).is_finite()) {
             return refuse(format!(
-                "effect `{}` does not move in this record",
+                "effect `{}` is constant in this record",
                 self.truth.effect
             ));
         }

@@ -180,7 +180,7 @@ impl Recipe {
         for (name, value) in positive {
             if !(value > 0.0 && value <= 1e6) {
                 return refuse(format!(
-                    "{name} {value}: must be above 0 and at most a million"
+                    "{name} {value} must be positive and at most 1000000"
                 ));
             }
         }
@@ -193,20 +193,20 @@ impl Recipe {
         ];
         for (name, value) in sizes {
             if !(0.0..=1e6).contains(&value) {
-                return refuse(format!("{name} {value}: must be from 0 to a million"));
+                return refuse(format!("{name} {value} must be from 0 to 1000000"));
             }
         }
         if !(0.0..1.0).contains(&self.colour) {
             return refuse(format!(
-                "colour {}: must be at least 0 and below 1",
+                "colour {} must be at least 0 and below 1",
                 self.colour
             ));
         }
         if self.bias.is_nan() || self.bias.abs() > 1e6 {
-            return refuse(format!("bias {}: must be finite", self.bias));
+            return refuse(format!("bias {} must be finite", self.bias));
         }
         if !(10.0..=1e7).contains(&(self.seconds * self.rate)) {
-            return refuse("seconds times rate: must be 10 to 10000000 samples".to_owned());
+            return refuse("seconds times rate must be 10 to 10000000 samples".to_owned());
         }
         if let Some(planted) = self
             .effects
@@ -215,7 +215,7 @@ impl Recipe {
         {
             let (name, strength) = (&planted.effect, planted.strength);
             return refuse(format!(
-                "strength {strength} of {name}: must be above 0 and at most a million"
+                "strength {strength} of {name} must be positive and at most 1000000"
             ));
         }
         let given = |p: &Planted| {
@@ -226,11 +226,11 @@ impl Recipe {
         };
         if let Some(planted) = self.effects.iter().find(|p| given(p)) {
             let name = &planted.effect;
-            return refuse(format!("gain and origin of {name}: must be finite"));
+            return refuse(format!("the gain and the origin of {name} must be finite"));
         }
         match &self.base {
             Some(base) if !base.is_sound() => refuse(
-                "base: the numbers must be finite, with rho > 0, sigma >= 1/2 and n >= 1"
+                "base: the parameters must be finite, with rho > 0, sigma >= 1/2 and n >= 1"
                     .to_owned(),
             ),
             _ => Ok(()),

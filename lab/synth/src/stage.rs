@@ -85,7 +85,7 @@ pub(super) fn apply(
         high *= 2.0;
         if high > LONGEST {
             return refuse(format!(
-                "{effect}: even {LONGEST} s would not reach the requested strength"
+                "{effect}: even a time of {LONGEST} s would not reach the requested strength"
             ));
         }
     }

@@ -310,7 +310,7 @@ fn surroundings(
         (found.cable_stiffness, "the cable's stiffness"),
     ] {
         if !(value.is_finite() && value > 0.0) {
-            return Err(format!("the bench record does not show {name}"));
+            return Err(format!("the bench record does not determine {name}"));
         }
     }
     Ok(found)

@@ -136,7 +136,7 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     let effect = question.effect.map(Undeclared::parse).transpose()?;
     if effect.is_some() && (is_given || gains.is_some()) {
         return Err(
-            "--effect: works only on the reference rig with the gains of Nguyen et al. (2018); it cannot be combined with a model or with gains from `bowden design`"
+            "--effect works only on the reference rig with the gains of Nguyen et al. (2018); it cannot be combined with a model or with gains from `bowden design`"
                 .to_owned(),
         );
     }
@@ -250,7 +250,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
         .and_then(|table| Some(table.get("schema")?.as_str()?.to_owned()));
     match schema.as_deref() {
         Some("bowden.model/1") if question.setup.is_some() => Err(format!(
-            "{label}: is a model; with --model, give gains from `bowden design`"
+            "{label}: this file is a model; with --model, give gains from `bowden design`"
         )),
         Some("bowden.model/1") | None => {
             let mut gains = setup(question, Some(path))?;
@@ -266,7 +266,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
             let gains = GainsFile::parse(&text, &label)?;
             let Some(model) = question.setup else {
                 return Err(format!(
-                    "{label}: gains from `bowden design` need the model that they were designed for: --model MODEL.toml"
+                    "{label}: gains from `bowden design` need their model; give it with --model MODEL.toml"
                 ));
             };
             // What the gains were designed for is what they are tried with.
@@ -299,7 +299,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
             return Err(format!(
-                "{}: this file was written by `bowden design`; give gains and rig in one file. Certify this file without --gains: `bowden certify FILE`",
+                "{}: this file was written by `bowden design`; give gains and rig in one file, or certify this file with `bowden certify FILE`",
                 path.display()
             ));
         }
@@ -307,7 +307,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     let own = read(setup)?;
     match (setup, &own.model) {
         (Some(path), Some(_)) => Err(format!(
-            "{}: is a model; these certificates need a file with gains, and with a table [rig] unless the rig is the reference rig. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees for them",
+            "{}: this file is a model; these certificates need a file with gains, and with a table [rig] unless the rig is the reference rig. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees",
             path.display()
         )),
         _ => Ok(Certified {
@@ -446,16 +446,16 @@ fn best(lines: &[Line]) -> String {
         .iter()
         .filter_map(|line| Some((line, line.mean_error()?)));
     let Some((best, error)) = good.min_by(|a, b| a.1.total_cmp(&b.1)) else {
-        return "Every controller ran away.".to_owned();
+        return "Every controller diverged.".to_owned();
     };
     let mut text = format!(
-        "Of {} controllers, {} follows the reference best: its true error is {error:.4} N·m rms",
+        "Of {} controllers, {} has the smallest true error: {error:.4} N·m rms",
         lines.len(),
         best.controller
     );
     let pi = lines.iter().find(|line| line.controller == "pi");
     if let Some(pi) = pi.and_then(Line::mean_error).filter(|pi| *pi > error) {
-        text.push_str(&format!("; the true error of the PI is {pi:.4} N·m rms"));
+        text.push_str(&format!(", compared with {pi:.4} N·m rms for the PI"));
     }
     text + "."
 }
@@ -470,7 +470,7 @@ fn first_gain(found: &Found) -> String {
         false => outcome.identified.names.join(", "),
     };
     let mut text = format!(
-        "The rig had {}, which the baseline model lacks; identification found {names}.",
+        "The rig had {}, which the baseline model lacks. Identification found {names}.",
         found.effect.name
     );
     let errors = outcome.pairs.first().and_then(|pair| {
@@ -479,7 +479,7 @@ fn first_gain(found: &Found) -> String {
     });
     if let Some((controller, before, after)) = errors {
         text.push_str(&format!(
-            " With the found model as a feed-forward, the true error of {controller} goes from {before:.4} to {after:.4} N·m rms."
+            " With the found model as a feed-forward, the true error of {controller} changes from {before:.4} to {after:.4} N·m rms."
         ));
     }
     text

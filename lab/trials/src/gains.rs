@@ -53,7 +53,7 @@ impl Known {
     fn refused(&self) -> Option<(&'static str, String)> {
         let [low, high] = self.alpha;
         if !(low.is_finite() && high.is_finite() && 0.0 < low && low <= high) {
-            let what = "a pair of finite numbers above zero, the lower one first";
+            let what = "a pair of finite positive numbers, the lower one first";
             return Some(("alpha", format!("[{low}, {high}]: must be {what}")));
         }
         let bounds = [
@@ -64,7 +64,7 @@ impl Known {
         ];
         let wrong = bounds.iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0));
         wrong.map(|(name, x)| {
-            let what = "must be a finite number, zero or above";
+            let what = "must be a finite number, zero or positive";
             (*name, format!("{x}: {what}"))
         })
     }
@@ -101,7 +101,7 @@ impl GainsFile {
                 label,
                 "",
                 "schema",
-                &format!("schema {:?}: must be {SCHEMA:?}", gains.schema),
+                &format!("schema {:?} must be {SCHEMA:?}", gains.schema),
             ));
         }
         let d = &gains.design;
@@ -112,7 +112,11 @@ impl GainsFile {
             (d.noise, "noise", false),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let what = if above { "above zero" } else { "zero or above" };
+                let what = if above {
+                    "positive"
+                } else {
+                    "zero or positive"
+                };
                 let line = format!("[design]: {name} {value}: must be a finite number, {what}");
                 return Err(at(text, label, "design", name, &line));
             }
@@ -199,7 +203,7 @@ fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
 pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
     if text.trim_start().starts_with('{') {
         return format!(
-            "{label}: is JSON; give TOML, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
+            "{label}: this file is JSON; give TOML, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
         );
     }
     let what = error.message().replace('\n', " ");

@@ -66,18 +66,18 @@ impl Heading {
             });
             all.push(match of_another {
                 None => format!("Gains: from {gains}."),
-                Some(other) => format!(
-                    "Gains: from {gains}, which were designed for {other} and not for this model."
-                ),
+                Some(other) => {
+                    format!("Gains: from {gains}, designed for {other} and not for this model.")
+                }
             });
         }
         if let Some(designed) = self.designed_drive_gain {
             let own = self.drive_gain;
             #[allow(clippy::float_cmp)] // Copied, or typed: no arithmetic stands between.
             all.push(match own == designed {
-                true => format!("Drive gain: {own} N·m/unit, which the gains were designed for."),
+                true => format!("Drive gain: {own} N·m/unit, as in the design of the gains."),
                 false => format!(
-                    "Drive gain: {own} N·m/unit; the gains were designed for {designed} N·m/unit."
+                    "Drive gain: {own} N·m/unit, but the gains were designed for {designed} N·m/unit."
                 ),
             });
         }
@@ -97,7 +97,7 @@ impl Heading {
         if self.gait {
             let error = self.lag_error;
             all.push(format!(
-                "The lag of the torque sensor alone causes a true error of {error:.3} N·m rms when the measured error is zero."
+                "Even if the measured error is zero, the lag of the torque sensor causes a true error of {error:.3} N·m rms."
             ));
         }
         let rig = &self.rig;

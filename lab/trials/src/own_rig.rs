@@ -54,7 +54,7 @@ impl RigChanges {
         };
         if !(rig.drive_gain > 0.0 && rig.drive_gain.is_finite()) {
             return Err(format!(
-                "the rig: drive_gain {} is out of range; it must be above 0",
+                "the rig: drive_gain {} is out of range; it must be positive",
                 rig.drive_gain
             ));
         }
@@ -95,7 +95,7 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();
-    cable.ok_or_else(|| "no table `transmission`: the model must contain it".to_owned())
+    cable.ok_or_else(|| "the model has no table `transmission`".to_owned())
 }
 
 /// The effects of a model for the rig, whose pulleys are the channels `phi_p` and `phi_d`.
@@ -114,7 +114,7 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
                     let name = other.map_or("?", String::as_str);
                     let own = term.effect.name();
                     return Err(format!(
-                        "the term {own}@{name}: the rig has the channels phi_p and phi_d"
+                        "the term {own}@{name} reads a channel other than phi_p and phi_d, the channels of the rig"
                     ));
                 }
             },
@@ -124,7 +124,7 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
     let terms: Vec<Term<f64>> = terms.collect::<Result<_, String>>()?;
     match terms.len() > MOST_UNDECLARED {
         true => Err(format!(
-            "{} terms are too many: the rig accepts at most {MOST_UNDECLARED}",
+            "{} terms are too many; the rig accepts at most {MOST_UNDECLARED}",
             terms.len()
         )),
         false => Ok(terms),

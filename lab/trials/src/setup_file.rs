@@ -46,13 +46,13 @@ impl Setup {
         if let Some(model) = &self.model {
             if model.schema != "bowden.model/1" {
                 return Err(format!(
-                    "{label}: model.schema {:?}: must be \"bowden.model/1\"",
+                    "{label}: model.schema {:?} must be \"bowden.model/1\"",
                     model.schema
                 ));
             }
             if model.mode != "torque" {
                 return Err(format!(
-                    "{label}: model.mode {:?}: must be \"torque\", because the simulated rig transmits torque to torque",
+                    "{label}: model.mode {:?} must be \"torque\", because the simulated rig transmits torque to torque",
                     model.mode
                 ));
             }

@@ -142,7 +142,7 @@ pub fn told_of_limits(lines: &[Line]) -> Option<String> {
     let all: Vec<String> = own.collect();
     (!all.is_empty()).then(|| {
         format!(
-            "At a limit of the command: {}. Such a row shows the effect of the limit, not of the gains.",
+            "The command saturates: {}. Such a row shows the effect of the limit, not of the gains.",
             all.join("; ")
         )
     })

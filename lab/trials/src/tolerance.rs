@@ -48,20 +48,20 @@ pub struct Middle {
 
 static ASSUMPTIONS: &[&str] = &[
     "the plant is f*alpha*e^(-theta*s)/(1 + f*(s^2/wn^2 + 2*zeta*s/wn)/(1 + c/K*s)), with constant parameters",
-    "the rig is of that form: the joint's inertia, and the cable's position before the hysteresis, are neglected",
-    "continuous time: samples much shorter than tau and 1/wn; hold, delay and the lags of drive and sensor act as a delay",
+    "for the rig, this form neglects the inertia of the joint and treats the elasticity of the cable as if it were downstream of the hysteresis",
+    "continuous time: the sampling period is much shorter than tau and 1/wn; the hold, the delay and the lags of drive and sensor act as one delay",
     "friction and load are bounded disturbances; f is any constant slope of the hysteresis",
-    "neither the limit of the command nor the limit of the observer is active, and no sample is bad",
+    "neither the command limit nor the limit of the observer is active, and no sample is bad",
 ];
 
 static OF_LEARNING: &[&str] = &[
     ASSUMPTIONS[0],
     ASSUMPTIONS[1],
-    "continuous time: many samples per cell; hold, delay and the lags of drive and sensor act as a delay",
-    "a constant cycle time from 0.9 to 1.1 s, and a phase that is uniform in time",
+    "continuous time: many samples per cell; the hold, the delay and the lags of drive and sensor act as one delay",
+    "a constant cycle time from 0.9 to 1.1 s, and a phase that advances at a constant rate",
     "friction and load repeat, or are bounded disturbances; f is any constant slope of the hysteresis",
-    "neither the limit of the command nor the limit of the learned values is active, and no sample is bad",
-    "the remaining error is not bounded: near and above the filter's corner frequency it may exceed the error without learning",
+    "neither the command limit nor the limit of the learned values is active, and no sample is bad",
+    "the remaining error is not bounded; near and above the corner frequency of the filter, it may exceed the error without iterative learning",
 ];
 
 impl Middle {

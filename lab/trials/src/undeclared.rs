@@ -48,7 +48,7 @@ impl Undeclared {
                 })?;
                 if !(value.is_finite() && value > 0.0) {
                     return Err(format!(
-                        "--effect {text}: the strength must be above zero [N·m]"
+                        "--effect {text}: the strength [N·m] must be positive"
                     ));
                 }
                 (what, Some(value))
@@ -84,7 +84,7 @@ impl Undeclared {
         let name = self.name.as_str();
         let source = match self.channel.as_deref() {
             None => usual(name).ok_or_else(|| {
-                format!("--effect {name}: the rig has no channel that this effect could read")
+                format!("--effect {name}: the rig has no channel that this effect can read")
             })?,
             Some("tau_i") => Source::Input,
             Some("phi_p") => Source::Channel(0),
@@ -122,7 +122,7 @@ impl Undeclared {
         let rms = path.rms(&term(1.0));
         if !(rms > 0.0 && rms.is_finite()) {
             return Err(format!(
-                "--effect {name}: this effect is always zero on this rig"
+                "--effect {name}: this effect is always zero on the rig"
             ));
         }
         // Friction takes away from the torque that arrives.

@@ -55,7 +55,7 @@ impl Choices {
             None => None,
             Some("torque") => Some(Mode::Torque),
             Some("displacement") => Some(Mode::Displacement),
-            Some(other) => return Err(format!("`--mode {other}`: torque or displacement")),
+            Some(other) => return Err(format!("`--mode {other}` must be torque or displacement")),
         };
         Ok(Options {
             mode,
@@ -79,14 +79,14 @@ impl Choices {
     /// # Errors
     /// One line if an option is out of range.
     pub fn asked(&self) -> Result<Asked, String> {
-        let positive = |option: &str, value: Option<f64>, unit: &str| match value {
+        let positive = |option: &str, value: Option<f64>| match value {
             Some(own) if !(own.is_finite() && own > 0.0) => Err(format!(
-                "`{option} {own}` is out of range; it must be above 0 {unit}"
+                "`{option} {own}` is out of range; it must be positive"
             )),
             _ => Ok(()),
         };
-        positive("--cutoff", self.cutoff, "Hz")?;
-        positive("--time-limit", self.time_limit, "s")?;
+        positive("--cutoff", self.cutoff)?;
+        positive("--time-limit", self.time_limit)?;
         let most = bowden_lab::facts::MOST_NAMES;
         if let Some(terms) = self.max_terms.filter(|terms| *terms > most) {
             return Err(format!(

@@ -27,9 +27,8 @@ use std::time::Duration;
 #[derive(Args, Default)]
 #[group(id = "rows")]
 pub struct Rows {
-    /// Identify a model from each record of a pattern such as 'runs/*.csv' separately and write
-    /// one row per record with --out; if the identification of a record fails, its row contains
-    /// the error.
+    /// Identify a separate model from each record of a pattern such as 'runs/*.csv', and write one
+    /// row per record to --out. If an identification fails, its row contains the error.
     #[arg(long, value_name = "PATTERN", requires = "out", conflicts_with_all = ["records", "per_file", "json", "model_out", "trace", "invertible", "Drawing"])]
     glob: Option<PathBuf>,
     /// File for the rows of --glob.
@@ -54,14 +53,12 @@ impl Rows {
     pub fn check_unused(&self) -> Result<(), Failure> {
         if let Some(out) = &self.out {
             return Err(format!(
-                "--out {}: needs --glob; to write the model, use --model-out FILE.toml",
+                "--out {} needs --glob; to write the model, use --model-out FILE.toml",
                 out.display()
             ));
         }
         match self.workers {
-            Some(workers) => Err(format!(
-                "--workers {workers}: only --glob processes records in parallel"
-            )),
+            Some(workers) => Err(format!("--workers {workers} needs --glob")),
             None => Ok(()),
         }
     }
@@ -85,7 +82,7 @@ impl Rows {
         let errors = rows.iter().filter(|row| row.is_error()).count();
         outputs::write_whole(out, &table::parquet(&rows)?)?;
         crate::say(&format!(
-            "{}: {} records, one row each; {errors} of them could not be identified{left_out}",
+            "{}: {} rows, one per record; {errors} records could not be identified{left_out}",
             out.display(),
             rows.len()
         ))
@@ -122,8 +119,8 @@ fn one(file: &Path, asked: &Asked) -> Row {
 
 /// The rows of all records, in their order.
 fn all(files: &[PathBuf], workers: Option<NonZeroUsize>) -> Result<Vec<Row>, Failure> {
-    let program =
-        std::env::current_exe().map_err(|e| format!("cannot find the program's own file: {e}"))?;
+    let program = std::env::current_exe()
+        .map_err(|e| format!("cannot find the executable of this program: {e}"))?;
     let processors = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let workers = workers.map_or_else(processors, NonZeroUsize::get);
     let bar = progress(files.len());
@@ -152,7 +149,7 @@ fn all(files: &[PathBuf], workers: Option<NonZeroUsize>) -> Result<Vec<Row>, Fai
     bar.finish_and_clear();
     rows.sort_by_key(|(index, _)| *index);
     if rows.len() < files.len() {
-        return Err("a worker failed, and at least one record has no row".to_owned());
+        return Err("a worker process failed, so at least one record has no row".to_owned());
     }
     Ok(rows.into_iter().map(|(_, row)| row).collect())
 }

@@ -73,7 +73,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
     let vacuous = lines.iter().filter(|line| line.vacuous);
     let vacuous = vacuous.map(|line| match (&line.mostly, verbose) {
         (Some(mostly), true) => format!(
-            "{}; with the best free constants, {:.0} % of this bound comes from the {}",
+            "{}; with the best choice of the free constants, {:.0} % of this bound comes from the {}",
             beyond(line),
             100.0 * mostly.share,
             mostly.term
@@ -86,12 +86,12 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
             let reason = line.refused.as_ref()?;
             Some(format!("{}, {}: {reason}", line.law, line.kind))
         });
-        block(&mut out, width, "Refused", refused);
+        block(&mut out, width, "Missing", refused);
         block(&mut out, width, "Note", NOTES);
         assumptions(&mut out, all, width);
         return out;
     }
-    let hint = ["every bound depends on assumptions about the plant, which -v lists"];
+    let hint = ["-v lists the assumptions about the plant on which every bound depends"];
     block(&mut out, width, "Note", hint);
     block(
         &mut out,
@@ -120,13 +120,13 @@ fn bound(line: &Promise) -> String {
 }
 
 fn beyond(line: &Promise) -> String {
-    format!("{}: {}, above the reference", line.kind, bound(line))
+    format!("{}: {}, larger than the reference", line.kind, bound(line))
 }
 
 const NOTES: [&str; 3] = [
-    "range: alpha, zeta, c/K and latency of the plant deviate from the rig by at most the first percentage, and wn by at most the second",
-    "beta within p %: beta_hat is bounded to p % around 1/alpha, where alpha is N_A·B of the rig",
-    "the proofs cover the row `constant |D|` in f32, including rounding: with the gains in Table 2 of Nguyen et al. (2018), |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m, and if s and z start within their bounds (proofs/README.md)",
+    "range: alpha, zeta, c/K and the latency of the plant may differ from those of the rig by the first percentage, and wn by the second",
+    "beta within p %: beta_hat is bounded to 1/alpha ± p %, where alpha is N_A·B of the rig",
+    "row `constant |D|`: for f32 with rounding errors and the gains in Table 2 of Nguyen et al. (2018), proofs/README.md proves |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m and if s and z are initially within their bounds",
 ];
 
 /// The assumptions of each kind of bound.
@@ -157,15 +157,15 @@ fn assumptions(out: &mut String, all: &Certified, width: Width) {
 fn within(tolerance: &Tolerance, what: &str) -> String {
     let told = match (tolerance.share, &tolerance.refused) {
         (Some(share), _) if share <= 0.0 => {
-            format!("{what} for the rig's own plant; nothing is proved for other plants")
+            format!("{what} for the rig's own plant, but not proved for other plants")
         }
         (Some(share), _) => format!(
-            "{what} for every plant within {:.1} %, wn within {:.2} %",
+            "{what} for every plant within {:.1} % (wn within {:.2} %)",
             100.0 * share,
             50.0 * share
         ),
-        (None, Some(reason)) => format!("nothing is shown: {reason}"),
-        (None, None) => "nothing is shown".to_owned(),
+        (None, Some(reason)) => format!("nothing is proved: {reason}"),
+        (None, None) => "nothing is proved".to_owned(),
     };
     format!("{}: {told}", tolerance.law)
 }

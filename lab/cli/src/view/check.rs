@@ -154,7 +154,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
     out.push('\n');
     let start = match check.left_out > 0.0 {
         true => format!(
-            " · the first {:.1} s are ignored: the input before them is unknown",
+            " · excludes the first {:.1} s, because the earlier input is unknown",
             check.left_out
         ),
         false => String::new(),
@@ -200,7 +200,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
         &mut out,
         width,
         "Next",
-        ["--json · --report page.html · bowden identify (a new model of this record)"],
+        ["--json · --report page.html · bowden identify (fits a new model to this record)"],
     );
     out
 }
@@ -213,7 +213,7 @@ fn beyond(one: &Outside) -> String {
     };
     let unit = one.unit.as_deref();
     format!(
-        "{}: {} {}{}, the fit covered {} ({:.0} % of the samples are outside)",
+        "{}: {} {}{}, but the fit covered {} ({:.0} % of the samples are outside)",
         one.channel,
         one.quantity,
         pair(one.here),

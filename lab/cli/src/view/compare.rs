@@ -36,14 +36,14 @@ fn ran_away(line: &Line, seeds: usize) -> Option<String> {
         1 => String::new(),
         _ => format!(" in {} of {seeds} trials, first", line.diverged),
     };
-    Some(format!("–, ran away{share} at {at:.2} s"))
+    Some(format!("–, diverged{share} at {at:.2} s"))
 }
 
 fn lineup_text(heading: &Heading, lineup: &Lineup, width: Width, verbose: bool) -> String {
     let mut out = String::new();
     answer(&mut out, heading, &lineup.lines, width);
     let data = format!(
-        "{} · errors from {} s · noise {} N·m rms · conduit {}",
+        "{} · errors after {} s · noise {} N·m rms · conduit {}",
         trials(heading),
         heading.from,
         heading.noise,
@@ -78,7 +78,7 @@ fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
     };
     let command = ("bowden compare", subject.as_str());
     let Some(best) = smallest_error(lines, |_| true) else {
-        let answer = (AnsiColor::Red, "EVERY CONTROLLER RAN AWAY");
+        let answer = (AnsiColor::Red, "EVERY CONTROLLER DIVERGED");
         headline(out, width, command, answer);
         return out.push('\n');
     };
@@ -87,7 +87,7 @@ fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
         format!("{mean:.*} N·m rms", places(mean, 4))
     };
     let (name, known) = (&best.controller, knows(&best.controller));
-    let knowledge = known.map_or("", |_| " (knows the plant)");
+    let knowledge = known.map_or("", |_| " (uses a plant model)");
     let answer = format!("SMALLEST ERROR: {name}{knowledge}, {}", size(best));
     // At a limit the errors say little of the gains.
     let colour = match told_of_limits(lines) {
@@ -96,13 +96,13 @@ fn answer(out: &mut String, heading: &Heading, lines: &[Line], width: Width) {
     };
     headline(out, width, command, (colour, &answer));
     match known {
-        Some(what) => prose(out, width, &format!("{name} knows {what}.")),
+        Some(what) => prose(out, width, &format!("{name} uses {what}.")),
         None if heading.gains.is_some() => {
-            let origin = "`bowden design` derived its gains from one";
+            let origin = "but `bowden design` derived its gains from one";
             prose(
                 out,
                 width,
-                &format!("{name} uses no plant model; {origin}."),
+                &format!("{name} uses no plant model, {origin}."),
             );
         }
         None => prose(out, width, &format!("{name} uses no plant model.")),
@@ -234,37 +234,37 @@ fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
     notes
 }
 
-const CALIBRATED: &str = "The rig's drive gain and noise are chosen so that PI and the adaptive law match Table 3 of Nguyen et al. (2018). The rows pi and adaptive are therefore calibration, not validation.";
+const CALIBRATED: &str = "The rig's drive gain and noise were chosen so that PI and the adaptive law match Table 3 of Nguyen et al. (2018). The rows pi and adaptive are therefore a calibration, not a validation.";
 
-const NOT_REPRODUCED: &str = "Two results of the paper are not reproduced: PIV better than PI, and the scatter between trials.";
+const NOT_REPRODUCED: &str = "Two results of the paper are not reproduced: that PIV is better than PI, and the scatter between trials.";
 
 const OF_THE_REFERENCE_RIG: &str = "Rig parameters default to the values of the reference rig.";
 
-const RINGING: &str = "Gains from `bowden design` can cause ringing on a heavy joint that swings.";
+const RINGING: &str = "Gains from `bowden design` can cause ringing with a heavy joint, because the design neglects its inertia.";
 
 const CHANGED: &str =
-    "The rig or the gains differ from Nguyen et al. (2018): Table 3 of that paper does not apply to this comparison.";
+    "Table 3 of Nguyen et al. (2018) does not apply, because the rig or the gains differ from those of the paper.";
 
 const NOT_OF_A_GAIT: &str =
-    "No bounds: they hold only for the reference signal of Nguyen et al. (2018).";
+    "No bounds are shown, because they hold only for the reference signal of Nguyen et al. (2018).";
 
 const NOT_OF_THESE_GAINS: &str =
-    "No bounds here: `bowden certify GAINS.toml` prints what is proved.";
+    "`bowden certify GAINS.toml` prints the proved bounds for these gains.";
 
-const NOT_OF_THIS_RIG: &str = "No bounds: they hold only for the reference rig. `bowden design` derives gains from a model, and a bound for these gains.";
+const NOT_OF_THIS_RIG: &str = "No bounds are shown, because they hold only for the reference rig. `bowden design` derives gains from a model, with a bound for these gains.";
 
 const OF_CONTROLLERS: [(&str, &str); 5] = [
-    ("matched-pi", "a PI with the effective integral gain of the adaptive law in Nguyen et al. (2018), 320. Its error shows what the gain achieves without adaptation."),
-    ("pi-observer", "a softer PI with a disturbance observer. It has no model of the friction. `bowden certify` prints the range of plants for which the loop is stable."),
+    ("matched-pi", "a PI with the effective integral gain of the adaptive law in Nguyen et al. (2018), which is 320. Its error shows the effect of this gain without adaptation."),
+    ("pi-observer", "a PI with lower gains and a disturbance observer, without a friction model. `bowden certify` prints the range of plants for which the loop is stable."),
     ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is the given value, and neither adapts."),
-    ("adaptive-feed-forward", "the adaptive law, plus the inverse of the rig's own transmission or of the given model."),
-    ("pi-learning", "the PI of Nguyen et al. (2018), plus a correction for each cell of the cycle and the inverse of the nominal plant. It needs the phase of the cycle, and five to twenty cycles to learn."),
+    ("adaptive-feed-forward", "the adaptive law plus a feed-forward, which is the inverse of the rig's own transmission or of the given model."),
+    ("pi-learning", "the PI of Nguyen et al. (2018) plus iterative learning: a correction for each cell of the cycle, computed with the inverse of the nominal plant. It needs the phase of the cycle and takes five to twenty cycles to learn."),
 ];
 
 const OF_COLUMNS: [&str; 3] = [
-    "Columns: `measured` is the rms of the measured error, which Table 3 of Nguyen et al. (2018) lists; `% max` is this rms as a share of the largest reference.",
+    "Columns: `measured` is the rms of the measured error, as in Table 3 of Nguyen et al. (2018). `% max` is this rms as a percentage of the largest reference.",
     "Columns: `effort` is the total variation of the command [units/s].",
-    "Columns: `bound` is the proved bound of the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
+    "Columns: `bound` is the proved bound on the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
 ];
 
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {

@@ -10,7 +10,7 @@ use serde_json::{json, Value};
 fn error(line: &Line) -> String {
     match line.ran_away {
         None => format!("{:.4}", line.rmse_true.mean),
-        Some(at) => format!("ran away at {at:.2} s"),
+        Some(at) => format!("diverged at {at:.2} s"),
     }
 }
 
@@ -39,7 +39,7 @@ pub(super) fn text(heading: &Heading, found: &Found, width: Width, verbose: bool
     let command = ("bowden compare", subject.as_str());
     headline(&mut out, width, command, (colour, &answer));
     let words = format!(
-        "The rig has {} N·m rms of {}, which the baseline model lacks. A controller counts if its error falls in every trial.",
+        "The rig includes {1} ({0} N·m rms), which the baseline model lacks. A controller counts only if its error falls in every trial.",
         effect.strength, effect.name
     );
     prose(&mut out, width, &words);
@@ -87,14 +87,14 @@ fn on_the_bench(outcome: &Outcome) -> String {
         false => found.names.join(", "),
     };
     let mut out = format!(
-        "seed {}: found {names}; held-out rmse {:.4} → {:.4} N·m",
+        "seed {}: found {names}, held-out RMSE {:.4} → {:.4} N·m",
         outcome.seed, found.before, found.after
     );
     if !found.left_out.is_empty() {
         out += &format!("; not fed forward: {}", found.left_out.join(", "));
     }
     if let Some(changed) = &outcome.fed_with {
-        out += &format!("; no inverse as fitted; fed forward with {changed}");
+        out += &format!("; no inverse, so fed forward with {changed}");
     }
     out
 }
@@ -133,10 +133,10 @@ fn seed(outcome: &Outcome) -> Columns {
 }
 
 const NOTES: [&str; 4] = [
-    "Baseline: the feed-forward is Bouc-Wen alone, fitted to the bench record.",
-    "Found terms: the terms that `identify` adds are refitted together with Bouc-Wen and fed forward.",
-    "Third regressor: the found terms enter the adaptive law with their bench values as priors. The baseline for comparison is the law without these terms.",
-    "Quiet: a loop with a fifth of the gains of Nguyen et al. (2018), which shows improvements that the full gains hide.",
+    "Baseline: the feed-forward is only the Bouc-Wen model, fitted to the bench record.",
+    "Found terms: the feed-forward is the Bouc-Wen model with the terms that `identify` adds, refitted together.",
+    "Third regressor: the found terms are a regressor of the adaptive law, with their bench values as priors. The baseline is the adaptive law without these terms.",
+    "Quiet: the loop has a fifth of the gains of Nguyen et al. (2018), and shows improvements that the full gains hide.",
 ];
 
 /// Schema `bowden.compare/1`.

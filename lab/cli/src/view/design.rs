@@ -34,7 +34,7 @@ pub fn text(designed: &Designed, width: Width, verbose: bool) -> String {
     }
     let compare = match designed.bounds.output {
         Some(_) => "bowden compare --model MODEL.toml --gains GAINS.toml",
-        None => "`bowden compare` refuses this model: its record gives no reference",
+        None => "`bowden compare` cannot use this model, because its record gives no reference",
     };
     let compare = match verbose {
         true => compare.to_owned(),
@@ -84,7 +84,7 @@ fn certifies(designed: &Designed) -> String {
             "`bowden certify GAINS.toml` names the gain or limit that prevents a proof.".to_owned()
         }
         Certifies::Refuses(why) => {
-            format!("`bowden certify` refuses a file with these gains: {why}.")
+            format!("`bowden certify` rejects these gains: {why}.")
         }
     }
 }
@@ -126,7 +126,7 @@ fn plant(designed: &Designed) -> [String; 3] {
     };
     let range = match b.output {
         Some([low, high]) => format!("within {} to {} N·m", short(low), short(high)),
-        None => "the record reaches no torque in both directions".to_owned(),
+        None => "no torque is reached in both directions of motion".to_owned(),
     };
     [
         format!(
@@ -154,7 +154,7 @@ fn limits(designed: &Designed) -> [String; 2] {
             short(b.slew)
         ),
         format!(
-            "longest dt {} s · safe command {} after {} bad samples in a row",
+            "longest dt {} s · safe command {} after {} successive bad samples",
             short(b.longest_dt),
             short(b.fallback_command),
             b.fallback_after
@@ -166,7 +166,7 @@ fn adaptive(own: &AdaptiveDesign) -> Vec<String> {
     let law = match (&own.settings, &own.refused) {
         (Some(law), _) => law,
         (None, why) => {
-            let why = why.as_deref().unwrap_or("no reason is known");
+            let why = why.as_deref().unwrap_or("the reason is unknown");
             return vec![format!("no admissible gains: {why}")];
         }
     };
@@ -221,19 +221,19 @@ fn details(designed: &Designed) -> Vec<String> {
             asked.least_real
         ),
         format!(
-            "Re L {:.2}: smallest real part of the open loop. Above -1, no sequence of slopes between zero and the design slope makes the loop unstable (circle criterion)",
+            "Re L {:.2}: smallest real part of the open-loop frequency response. Above -1, the loop is stable for every sequence of slopes between zero and the design slope (circle criterion)",
             designed.pi.margins.least_real
         ),
         format!(
-            "admissible: k_p below {}, k_i up to {} with this k_p, up to {} without k_p",
+            "admissible: k_p below {}; k_i up to {} with this k_p, or up to {} without k_p",
             short(admissible.k_p),
             short(admissible.k_i),
             short(admissible.k_i_alone)
         ),
-        "the plant consists of the transmission and the delay; it does not include the inertia or the spring of a joint".to_owned(),
-        "reference: no rate is guaranteed if the smallest slope is near or below zero".to_owned(),
+        "the plant model includes the transmission and the delay, but not the inertia or the spring of a joint".to_owned(),
+        "reference: no rate is guaranteed if the smallest slope is near zero or negative".to_owned(),
         "slope: between B and B - kappa_eta·rho·max(1, 2·sigma), from the Bouc-Wen equation".to_owned(),
-        "limits of the command: the range of the record; a faster reference needs inputs that move faster than those in the record".to_owned(),
+        "command limits: the input range of the record. For a faster reference, record faster inputs".to_owned(),
         format!(
             "slew-rate limit: {} units/s for the noise, {} units/s for the fastest input of the record",
             short(b.slew_of_noise),
@@ -242,7 +242,7 @@ fn details(designed: &Designed) -> Vec<String> {
     ];
     let own = &designed.adaptive;
     if own.every > 1 {
-        all.push("the first-order form needs a plant that responds within one sample".to_owned());
+        all.push("the law does not run on every sample, because its first-order form needs a plant that responds within one step".to_owned());
     }
     if let Some(law) = &own.settings {
         all.push(format!(
@@ -253,7 +253,7 @@ fn details(designed: &Designed) -> Vec<String> {
             short(law.delta.gain),
             short(law.delta.leakage.rate())
         ));
-        all.push("a certificate holds for a plant that responds within one step".to_owned());
+        all.push("the certificate assumes a plant that responds within one step".to_owned());
     }
     all
 }

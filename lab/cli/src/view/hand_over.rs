@@ -94,19 +94,19 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>, width: Width) -> String
             // The model above is the exported one.
             Some(_) => format!("exported model: refitted without {names}"),
             None => format!(
-                "exported model, refitted without {names}: held-out {}; the model above: {}",
+                "exported model, refitted without {names}: held-out {}, compared with {} for the model above",
                 per_cent(hand.nrmse.held_out),
                 per_cent(hand.as_fitted.held_out)
             ),
         });
     }
     lines.push(format!(
-        "on a controller: held-out {} (f32, sample by sample, causal rates)",
+        "on a controller: held-out {} (f32, causal derivatives)",
         per_cent(hand.causal.held_out),
     ));
     if let Some(calmed) = &hand.calmed {
         lines.push(format!(
-            "with signal::Play of half-width {} on the input: held-out {}; the input's noise drives the hysteresis",
+            "with signal::Play of half-width {} on the input: held-out {} (without it, input noise drives the hysteresis)",
             three_digits(calmed.half_width),
             per_cent(calmed.causal_nrmse.held_out),
         ));
@@ -117,7 +117,7 @@ pub(super) fn text(hand: &Result<HandOverFacts, String>, width: Width) -> String
         lines.extend(
             match (&hand.feed_forward.reason, &hand.feed_forward.nearest) {
                 (None, _) => None,
-                (Some(_), None) => Some("--invertible: a model with an inverse".to_owned()),
+                (Some(_), None) => Some("--invertible: fits a model with an inverse".to_owned()),
                 (Some(_), Some(near)) => Some(format!(
                     "--invertible: held-out {} (nearest model: {})",
                     per_cent(near.nrmse.held_out),

@@ -12,7 +12,7 @@ pub fn plan_text(record: &str, plan: &Plan, width: Width) -> String {
     heading(&mut out, width, ("bowden plan", record), (colour, &answer));
     if let Some(Planned { experiment, .. }) = &plan.planned {
         let words = format!(
-            "The motion takes {:.1} s, at up to {:.2} times the largest recorded speed.",
+            "The motion takes {:.1} s and reaches {:.2} times the largest recorded speed.",
             experiment.seconds, experiment.speed
         );
         prose(&mut out, width, &words);
@@ -57,7 +57,7 @@ fn answer(plan: &Plan) -> (AnsiColor, String) {
         }
         (None, None) => (
             AnsiColor::Yellow,
-            "NO MOTION PLANNED: no experiment of this kind helps".to_owned(),
+            "NO MOTION PLANNED: none of the candidate motions helps".to_owned(),
         ),
     }
 }
@@ -94,7 +94,7 @@ fn unidentified(plan: &Plan) -> Option<String> {
         (_, Some(_)) => None,
         ([], None) => Some("Every parameter is identified.".to_owned()),
         (names, None) => Some(format!(
-            "No planned motion identifies {}.",
+            "No planned motion identifies these parameters: {}.",
             names.join(", ")
         )),
     }

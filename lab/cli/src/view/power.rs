@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 
 /// The method, in one sentence.
-const SIMULATED: &str = "each trial record is the sum of the last model's prediction, its residual (shifted circularly, with changes of sign), and one effect at the middle of its trial shapes; each trial is a complete identification, with search, refits and tests; an effect counts as found if a term or an alternative belongs to its family";
+const SIMULATED: &str = "Each trial record is the sum of the identified model's prediction, its residual (shifted circularly, with sign changes) and one effect with the middle one of its trial shapes. Each trial is a complete identification with search, refits and tests. An effect counts as found if a term or an alternative belongs to its family.";
 
 #[derive(Serialize)]
 struct Whole<'a> {
@@ -156,7 +156,7 @@ pub fn power_text(power: &PowerFacts, width: Width, verbose: bool) -> String {
             prose(
                 &mut out,
                 width,
-                &format!("{more} effects with a smaller amplitude: -v"),
+                &format!("-v lists {more} more effects with smaller amplitudes"),
             );
         }
         out.push('\n');
@@ -164,10 +164,10 @@ pub fn power_text(power: &PowerFacts, width: Width, verbose: bool) -> String {
     block(&mut out, width, "Model", [power.model.join(", ")]);
     let (named, trials) = (power.named_without, power.trials);
     let mut notes = vec![format!(
-        "with nothing planted, {named} of {trials} trials name an effect"
+        "without an added effect, {named} of {trials} trials find one"
     )];
     if verbose {
-        notes.push(format!("simulated: {SIMULATED}"));
+        notes.push(format!("Simulation: {SIMULATED}"));
     }
     block(&mut out, width, "Note", notes);
     let next = "--effects NAME,… · --trials K · bowden plan RECORD";
@@ -201,7 +201,7 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
         (colour, &headline),
     );
     let words = format!(
-        "For each effect, the table lists the smallest amplitude at which it was found in at least {:.0} % of {} trials.",
+        "The table lists the smallest amplitude of each effect that was found in at least {:.0} % of {} trials.",
         100.0 * SHARE,
         power.trials
     );
@@ -215,7 +215,7 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
             "Not found",
             names(|answer| matches!(answer, Answer::NotFound { .. })),
         ),
-        ("In the model already", in_model),
+        ("Already in the model", in_model),
     ] {
         if !names.is_empty() {
             prose(out, width, &format!("{what}: {}.", names.join(", ")));

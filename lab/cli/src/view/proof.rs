@@ -5,9 +5,7 @@ use anstyle::AnsiColor;
 use bowden_trials::facts::{above, fixed, scientific, Named, Proof, Sides, Towards};
 
 /// Of a proof in which the limit of the command may be met.
-const AT_THE_LIMIT: &str = "Within the bounds of the proof the law may demand commands beyond the \
-     limit, so the limit may become active. The error bound still holds, because the command at \
-     its limit can hold the reference against the load (theorems/Limit.v).";
+const AT_THE_LIMIT: &str = "Within the bounds of the proof the command may saturate. The error bound still holds, because the saturated command can hold the reference against the disturbance (theorems/Limit.v).";
 
 /// Schema `bowden.certificate/1`.
 ///
@@ -29,7 +27,9 @@ pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
         None => {
             let answer = format!("PROVED in {float}: |e| <= {error} N·m at every sample");
             heading(&mut out, width, command, (AnsiColor::Green, &answer));
-            let words = format!("Every rounding is included. The proof also gives |s| <= {s} N·m.");
+            let words = format!(
+                "The bound includes every rounding error. The proof also gives |s| <= {s} N·m."
+            );
             prose(&mut out, width, &words);
             if proof.may_meet_the_limit {
                 prose(&mut out, width, AT_THE_LIMIT);
@@ -44,7 +44,7 @@ pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
     out.push('\n');
     let plant = [
         format!(
-            "|w| <= {} N·m, changes at up to {} N·m/s",
+            "|w| <= {} N·m, rate of change of w at most {} N·m/s",
             above(proof.w.high),
             above(proof.xi.high)
         ),
@@ -83,7 +83,7 @@ pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
         return out;
     }
     let hint = format!(
-        "a proof rests on {} assumptions: -v lists them",
+        "-v lists the {} assumptions of the proof",
         proof.assumptions.len()
     );
     block(&mut out, width, "Note", [hint]);
@@ -99,7 +99,7 @@ pub fn text(proof: &Proof, label: &str, width: Width, verbose: bool) -> String {
 fn rounding(proof: &Proof) -> String {
     let rounded = &proof.roundings;
     format!(
-        "rounding per step: s {} N·m, command {}, z {} N·m·s; the last two include {} and {} carried over from the previous step",
+        "rounding error per step, at most: s {} N·m, command {}, z {} N·m·s; the last two include {} and {} carried over from the previous step",
         short(rounded.s.high),
         short(rounded.command.high),
         short(rounded.z.high),

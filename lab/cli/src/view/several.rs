@@ -15,7 +15,7 @@ pub(super) fn size(record: &RecordFacts) -> String {
             record.samples, record.seconds
         ),
         several => format!(
-            "{} samples in {several} files, {:.1} s together, resampled to {rate} Hz",
+            "{} samples in {several} files, {:.1} s in total, resampled to {rate} Hz",
             record.samples, record.seconds
         ),
     }
@@ -28,7 +28,7 @@ pub(super) fn split(record: &RecordFacts) -> String {
     let whole = files.find(|file| file.held_out == HeldOutOf::Whole);
     match (record.files.len(), whole) {
         (1, _) => trailing.to_owned(),
-        (_, None) => format!("of each file {trailing}"),
+        (_, None) => format!("{trailing} of each file"),
         (_, Some(file)) => {
             format!("80 % fit · 20 % selection · held-out: {}", file.path)
         }
@@ -136,16 +136,19 @@ fn words(one: &Across) -> String {
     };
     let others = || named(&|grade| grade.is_none());
     match (one.is_joint, some) {
-        (true, 0) => format!("{}: in the joint fit only, in no file alone", one.title),
-        (true, n) if n == all => format!("{}: each file alone, {high}", one.title),
+        (true, 0) => format!(
+            "{}: found only in the joint fit, not in any single file",
+            one.title
+        ),
+        (true, n) if n == all => format!("{}: found in each single file, {high}", one.title),
         (true, n) => format!(
-            "{}: {n} of {all} files alone, {high}; not {}",
+            "{}: found in {n} of {all} single files, {high}; not in {}",
             one.title,
             others()
         ),
         (false, _) => {
             let own = named(&|grade| grade == Some(Grade::High));
-            format!("{}: {own} alone, not in the joint fit", one.title)
+            format!("{}: found in {own}, but not in the joint fit", one.title)
         }
     }
 }

@@ -86,7 +86,11 @@ fn answer(facts: &Facts, width: Width) -> String {
         prose(&mut out, width, &errors);
     }
     for lack in facts.lacks.iter().skip(1) {
-        prose(&mut out, width, &format!("also {}", share(facts, lack)));
+        prose(
+            &mut out,
+            width,
+            &format!("also missing: {}", share(facts, lack)),
+        );
     }
     let exported = facts.constrained().is_some();
     for round in &facts.rounds {
@@ -162,7 +166,7 @@ fn headline(facts: &Facts) -> String {
             "DO NOT USE THIS MODEL: the output does not follow the input".to_owned()
         }
         (Verdict::NotTransferable, _) => {
-            "DO NOT USE THIS MODEL: it fits only one stretch of the record".to_owned()
+            "DO NOT USE THIS MODEL: it fits only part of the record".to_owned()
         }
         (Verdict::DefectiveRecord, _) => "DEFECTIVE RECORD: repeat the measurement".to_owned(),
         (Verdict::UnderExcited, 0) => {
@@ -176,13 +180,13 @@ fn headline(facts: &Facts) -> String {
                 .map_or("", |unknown| unknown.words.as_str());
             format!("UNMODELLED DEPENDENCE ON {words}")
         }
-        (Verdict::Stopped, 0) => "SEARCH STOPPED: the residual exceeds sensor noise".to_owned(),
+        (Verdict::Stopped, 0) => "SEARCH STOPPED: the residual exceeds the sensor noise".to_owned(),
         (Verdict::Explained, 0) if facts.constrained().is_some() => {
             "NO TERM IS MISSING: without --invertible the residual is sensor noise".to_owned()
         }
         (Verdict::Explained, 0) => "NO TERM IS MISSING: the residual is sensor noise".to_owned(),
-        (_, 0) => "NO MISSING TERM FOUND: the residual exceeds sensor noise".to_owned(),
-        _ if explains_little(facts) => format!("LITTLE EXPLAINED: {main}"),
+        (_, 0) => "NO MISSING TERM FOUND: the residual exceeds the sensor noise".to_owned(),
+        _ if explains_little(facts) => format!("LITTLE IS EXPLAINED: {main}"),
         _ => format!("MISSING: {main}"),
     }
 }
@@ -203,7 +207,7 @@ fn record(facts: &Facts, report: Report) -> String {
     };
     let origin = match report.chosen_cutoff {
         true => "",
-        false => " (8 × highest tone)",
+        false => " (from the input)",
     };
     data.push(format!(
         "{channels}zero-phase low-pass {} Hz{origin}",
@@ -216,7 +220,7 @@ fn record(facts: &Facts, report: Report) -> String {
     ));
     let mut out = String::new();
     block(&mut out, report.width, "Data", data);
-    let seconds = facts.correlated_for.map(|seconds| format!("the residual is correlated for {seconds:.3} s: too long for sixteen independent blocks"));
+    let seconds = facts.correlated_for.map(|seconds| format!("the residual is correlated over {seconds:.3} s, which is too long for sixteen independent blocks"));
     let redundant = facts.unneeded.iter().map(|part| {
         let (without, with) = (part.held_out_without, part.held_out_with);
         format!(
@@ -254,7 +258,7 @@ fn unlike(facts: &Facts) -> Option<String> {
     let unit = unit.map_or_else(String::new, |u| format!(" {u}"));
     let shown = |v: f64| number(v, Some(0.05 * v));
     Some(format!(
-        "the output's standard deviation is {}{unit} on the fit segment and {}{unit} on the held-out segment: their percentages are not comparable",
+        "the output's standard deviation is {}{unit} on the fit segment and {}{unit} on the held-out segment, so the percentages of these segments are not comparable",
         shown(facts.deviation.fit),
         shown(facts.deviation.held_out)
     ))
@@ -284,7 +288,7 @@ fn errors(facts: &Facts, report: Report) -> String {
     for (index, round) in found {
         let name = match index < facts.rounds.len() {
             true => format!("+ {}", round.title),
-            false => format!("({}) not delivered", round.title),
+            false => format!("({})", round.title),
         };
         let mark = if round.raises_held_out { " ↑" } else { "" };
         row(name, &round.after, mark);
@@ -297,20 +301,20 @@ fn errors(facts: &Facts, report: Report) -> String {
     }
     let mut out = rows.text(width);
     if !facts.beyond.is_empty() {
-        block(&mut out, width, "Note", ["not delivered: the model is as good without the term, on blocks that were left out of the fit"]);
+        block(&mut out, width, "Note", ["in brackets: not in the final model, because the model is as good without the term on blocks left out of the fit"]);
     }
     let fell = facts.falls_up_to;
     if fell < facts.rounds.len() {
         let until = match fell {
-            0 => "the error rises from the first term on".to_owned(),
-            n => format!("the error falls up to term {n}"),
+            0 => "The first term already raises this error".to_owned(),
+            n => format!("This error falls up to and including term {n}"),
         };
         block(
             &mut out,
             width,
             "Note",
             [format!(
-                "↑: the term raises the held-out error, which the search does not use; {until}"
+                "↑: the term raises the held-out error, which the search does not use. {until}"
             )],
         );
     }
@@ -422,7 +426,7 @@ fn model(facts: &Facts, report: Report) -> String {
     let excitations =
         missing.map(|(title, why)| format!("to identify {title}: {}", why.excitation));
     let exported = facts.constrained();
-    let exported = exported.map(|_| "exported with --invertible, as in the file:".to_owned());
+    let exported = exported.map(|_| "model exported with --invertible, as in the file:".to_owned());
     let on_bound = matches!(&facts.hand_over, Ok(hand) if hand.on_inverse_bound);
     let tied = on_bound.then(|| format!("{} is {TIED}", last.gain_names[0]));
     let lines = exported

@@ -113,7 +113,10 @@ fn the_text_of_compare_is_the_golden_one() {
     });
     golden("compare", |width| compare::text(&paper, width, false));
     let plain = compare::text(&paper, Width::of(80), false);
-    assert!(plain.contains("pi-observer (knows the plant)"), "{plain}");
+    assert!(
+        plain.contains("pi-observer (uses a plant model)"),
+        "{plain}"
+    );
     assert!(plain.contains("Smallest error without a plant model: matched-pi"));
     assert!(compare::text(&paper, Width::of(80), true).contains("Transient"));
 

@@ -141,7 +141,7 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
     }
     assert!(refused(&["identify", "--no-such-option"]).contains("--no-such-option"));
     assert!(refused(&["compare", "--inertia", "0"])
-        .contains("--inertia 0 is out of range; it must be above 0"));
+        .contains("--inertia 0 is out of range; it must be positive"));
     assert!(refused(&["compare", "--delay", "9"]).contains("9 is not in 0..=8"));
     assert!(refused(&["compare", "--noise", "-1"]).contains("--noise -1 is out of range (0"));
 }

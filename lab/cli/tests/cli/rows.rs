@@ -80,7 +80,7 @@ fn each_record_is_a_row_with_what_close_says_of_it_alone_or_with_its_error() {
     let words = said(&[&glob, &asked[..]].concat());
     assert_eq!(
         words,
-        format!("{out}: 6 records, one row each; 2 of them could not be identified\n")
+        format!("{out}: 6 rows, one per record; 2 records could not be identified\n")
     );
     let rows = rows_of(&out);
     assert_eq!(rows.len(), 6);
@@ -199,7 +199,7 @@ fn bad_use_of_glob_leaves_the_rows_of_before() {
     let record = file(folder.root(), "r1.csv");
     let line = refused(&["identify", "--glob", &pattern, "--out", &record]);
     assert!(
-        line.ends_with(&format!("would overwrite {record}, which is an input")),
+        line.ends_with(&format!("this would overwrite {record}, which is an input")),
         "{line}"
     );
     let line = refused(&["identify", "--glob", &pattern, "--out", &out, "--cutoff=-1"]);
@@ -226,11 +226,11 @@ fn an_option_of_glob_without_it_is_refused_and_not_passed_over() {
         assert_eq!(
             line,
             format!(
-                "bowden: --out {out}: needs --glob; to write the model, use --model-out FILE.toml"
+                "bowden: --out {out} needs --glob; to write the model, use --model-out FILE.toml"
             )
         );
         let line = refused(&[asked, &["--workers", "3"]].concat());
-        assert!(line.contains("--workers 3: only --glob"), "{line}");
+        assert!(line.contains("--workers 3 needs --glob"), "{line}");
         refused(&[asked, &["--out", &out, "--workers", "3"]].concat());
     }
     assert!(!Path::new(&out).exists());

@@ -25,13 +25,13 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let x = record(&folder, "x.csv", &["--mode", "displacement"]);
     let line = refused(&["identify", &a, &x]);
     assert!(
-        line.contains("x.csv: column `x`: ") && line.contains("the mode must be torque"),
+        line.contains("x.csv: column `x`: ") && line.contains("but the mode must be torque"),
         "{line}"
     );
     let fewer = renamed(&folder, &a, "fewer.csv", |h| h.replace("phi_d", "other"));
     let line = refused(&["identify", &a, &fewer]);
     assert!(
-        line.contains("fewer.csv: column `phi_d`: no such channel"),
+        line.contains("fewer.csv: column `phi_d`: the file has no such channel"),
         "{line}"
     );
     let line = refused(&["identify", &fewer, &a]);
@@ -42,7 +42,7 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     let other = renamed(&folder, &a, "unit.csv", |h| h.replacen("N·m", "V", 1));
     let line = refused(&["identify", &a, &other]);
     assert!(
-        line.contains("unit.csv: column `tau_i`: has unit V; it must have unit N·m"),
+        line.contains("unit.csv: column `tau_i`: the column has unit V, but it must have unit N·m"),
         "{line}"
     );
     let line = refused(&["identify", &a, &folder.path("none.csv")]);
@@ -50,7 +50,10 @@ fn files_that_do_not_go_together_give_one_line_with_file_and_column() {
     assert!(refused(&["identify", &a, &a]).contains("given twice"));
     let copy = renamed(&folder, &a, "copy.csv", str::to_owned);
     let line = refused(&["identify", &a, &copy]);
-    assert!(line.contains("copy.csv: the same samples as in"), "{line}");
+    assert!(
+        line.contains("copy.csv: the samples are the same as in"),
+        "{line}"
+    );
     let line = refused(&["identify", &a, "--per-file", "gains"]);
     assert!(line.contains("more than one file"), "{line}");
     let b = record(&folder, "b.csv", &["--seed", "2"]);
@@ -95,14 +98,14 @@ fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_s
     );
     let line = refused(&["identify", &folder.path("*.vector.csv")]);
     assert!(
-        line.ends_with("no file matches this pattern but 1 test vector of --model-out"),
+        line.ends_with("no file matches this pattern except 1 test vector of --model-out"),
         "{line}"
     );
     // A record of such a name stays one.
     std::fs::copy(&a, folder.path("b.vector.csv")).unwrap();
     let line = refused(&["identify", &pattern]);
     assert!(
-        line.contains("b.vector.csv: the same samples as in"),
+        line.contains("b.vector.csv: the samples are the same as in"),
         "{line}"
     );
     let rows = folder.path("rows.parquet");
@@ -118,7 +121,7 @@ fn a_pattern_leaves_out_the_test_vectors_that_the_program_has_written_and_says_s
     let output = bowden(&[&glob, &quick[..]].concat());
     assert_eq!(
         text(&output.stdout),
-        format!("{rows}: 2 records, one row each; 0 of them could not be identified; {note}\n")
+        format!("{rows}: 2 rows, one per record; 0 records could not be identified; {note}\n")
     );
 }
 
@@ -129,7 +132,7 @@ fn more_files_than_can_be_fitted_together_are_refused_before_any_is_read() {
     all.extend(names.iter().map(String::as_str));
     let line = refused(&all);
     assert!(
-        line.contains("65 records: at most 64 can be fitted together"),
+        line.contains("65 records are too many for one model (at most 64)"),
         "{line}"
     );
     // One less is read, and the first of these names is no file.
@@ -167,7 +170,7 @@ fn the_report_says_what_each_file_supports_alone() {
     let [a, b] = ["straight.csv", "straight_later.csv"].map(example);
     let report = said(&["identify", &a, &b]);
     let line =
-        "Files   friction over the velocity of phi_p: each file alone, with high confidence\n";
+        "Files   friction over the velocity of phi_p: found in each single file, with high confidence\n";
     assert!(report.contains(line), "{report}");
     assert!(!report.contains("not the joint fit"), "{report}");
 }

@@ -65,7 +65,7 @@ fn the_report_of_something_unknown_says_so_in_both_forms_and_is_the_same_on_one_
             chosen_cutoff: false,
         },
     );
-    assert!(ledger.contains("The residual depends on x; to first order, the best one"));
+    assert!(ledger.contains("The residual depends on x. To first order, the best one"));
 
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)

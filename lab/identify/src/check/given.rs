@@ -78,7 +78,7 @@ impl Given {
         let mut table: toml::Table = toml::from_str(text).map_err(one_line)?;
         match table.get("schema").and_then(toml::Value::as_str) {
             Some(SCHEMA) => {}
-            Some(other) => return Err(format!("schema {other:?}: must be {SCHEMA}")),
+            Some(other) => return Err(format!("schema {other:?} must be {SCHEMA}")),
             None => {
                 return Err(format!(
                     "no schema: give a model written by `bowden identify --model-out` ({SCHEMA})"
@@ -97,7 +97,7 @@ impl Given {
         // Refused here and not later: what the core does not accept cannot be checked.
         file.model::<MOST_TERMS>()?;
         if file.transmission.is_none() && file.terms.is_empty() {
-            return Err("the model has no parts: there is nothing to validate".to_owned());
+            return Err("the model has no parts, so there is nothing to validate".to_owned());
         }
         let mut left_out = Vec::new();
         file.terms.retain(|term| {
@@ -124,7 +124,7 @@ impl Given {
         match self.file.mode.as_str() {
             "torque" => Ok(Mode::Torque),
             "displacement" => Ok(Mode::Displacement),
-            other => Err(format!("mode {other:?}: must be torque or displacement")),
+            other => Err(format!("mode {other:?} must be torque or displacement")),
         }
     }
 

@@ -136,7 +136,7 @@ impl Check {
     pub fn new(mut record: Record, given: &Given, cutoff: Option<f64>) -> Result<Self, String> {
         if record.mode != given.mode()? {
             return Err(format!(
-                "the model is in {} mode; the record is not",
+                "the model is in {} mode, but the record is not",
                 given.file.mode
             ));
         }
@@ -198,7 +198,7 @@ impl Check {
         };
         if check.start > MATTERS * check.rmse {
             let share = three_digits(100.0 * check.start / check.deviation);
-            check.data.notes.push(format!("the motion before the record is unknown, and the model's initial state changes the prediction by up to {share} % of the output's standard deviation"));
+            check.data.notes.push(format!("the motion before the record is unknown, and the initial state of the model changes the prediction by up to {share} % of the output's standard deviation"));
         }
         check.verdict = check.found();
         if check.verdict == Verdict::DoesNotHold {
@@ -272,17 +272,17 @@ impl Check {
         };
         if HOLDS * own > NOTHING {
             return format!(
-                "the larger of two values: {} of the standard deviation (less than {HOLDS} times the model's own held-out error, because above this limit a model explains less than half of the output's variance); and {noise}",
+                "the larger of {} of the standard deviation, above which a model explains less than half of the output's variance, and {noise}",
                 percent(NOTHING)
             );
         }
         let own = format!("{HOLDS} times the model's own held-out error");
         match self.about.held_out_rmse.is_some() {
             true => format!(
-                "the largest of three values: {own}, as a share of the standard deviation; {own} in the output's unit, but at most {} of the standard deviation; and {noise}",
+                "the largest of {own} as a share of the standard deviation, {own} in the output's unit (but at most {} of the standard deviation), and {noise}",
                 percent(POOR)
             ),
-            false => format!("the larger of two values: {own}, as a share of the standard deviation; and {noise}"),
+            false => format!("the larger of {own} as a share of the standard deviation, and {noise}"),
         }
     }
 
@@ -384,7 +384,7 @@ fn convert(record: &mut Record, given: &Given) -> Result<(), String> {
     let states_none = columns.into_iter().chain(&record.channels);
     let states_none = states_none.map(|c| &c.unit).all(Option::is_none);
     if states_none && !given.about.units.is_empty() {
-        notes.push("the record states no units: the model's units are assumed".to_owned());
+        notes.push("the record has no units, so the model's units are assumed".to_owned());
     }
     let Record {
         input,
@@ -416,20 +416,20 @@ fn remarks(given: &Given, cutoff: Option<f64>) -> Vec<String> {
     let mut notes = Vec::new();
     if about.units.is_empty() {
         notes
-            .push("the model file states no units: the units of the record are assumed".to_owned());
+            .push("the model file has no units, so the units of the record are assumed".to_owned());
     }
     match (about.cutoff_hz, cutoff) {
         (Some(own), Some(cutoff)) if own != cutoff => notes.push(format!(
-            "the model was fitted with a cut-off of {own} Hz: its own error is not exactly comparable"
+            "the model was fitted with a cut-off of {own} Hz, so its own error is not exactly comparable"
         )),
         (None, None) => notes.push(
-            "the model file states no cut-off, so it is derived from the input of this record; --cutoff sets it".to_owned(),
+            "the model file has no cut-off, so it is derived from the input of this record; --cutoff sets it".to_owned(),
         ),
         _ => {}
     }
     if !given.left_out.is_empty() {
         notes.push(format!(
-            "excluded, because they belong to the model's own record: {}",
+            "excluded terms, which belong to the model's own record: {}",
             given.left_out.join(", ")
         ));
     }

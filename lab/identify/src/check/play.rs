@@ -50,9 +50,9 @@ impl Played {
             false => 0,
         };
         let data = data.with_rows(|row| row >= from);
-        match data.split.fit.len() < FEWEST {
-            true => Err("too little of the record remains without defects and gaps".to_owned()),
-            false => Ok(Self { data, model, from }),
+        match data.split.fit.len() {
+            count @ ..FEWEST => Err(format!("only {count} filtered samples remain without defects and gaps; at least {FEWEST} are needed")),
+            _ => Ok(Self { data, model, from }),
         }
     }
 
@@ -243,6 +243,6 @@ pub(super) fn missing(given: &Given, name: &str) -> String {
     let fitted = given.about.definitions.get(name);
     let fitted = fitted.map_or_else(String::new, |own| format!(" (fitted as {own})"));
     format!(
-        "the model reads channel `{name}`{fitted}, but the record has none; give its column with --channel {name}=COL"
+        "the model reads channel `{name}`{fitted}, but the record has no such channel; give its column with --channel {name}=COL"
     )
 }

@@ -44,14 +44,14 @@ pub(crate) fn of_role(solution: &Solution, role: Role) -> &'static str {
         term.map_or("", |t| shown_by(t.effect.name()))
     };
     match role {
-        Role::Rho => "reversals at several amplitudes, the smallest well inside the knee",
+        Role::Rho => "reversals at several amplitudes, the smallest well below the knee",
         Role::Sigma => "full strokes past the knee, then slow reversals of several sizes",
         Role::N => "slow full strokes that dwell near the knee",
         Role::Eta0 { .. } => {
-            "a full stroke just before the record; this parameter belongs to this record only"
+            "a full stroke just before the record (the parameter belongs only to this record)"
         }
         Role::Start { .. } => {
-            "a known motion just before the record; this parameter belongs to this record only"
+            "a known motion just before the record (the parameter belongs only to this record)"
         }
         Role::Origin { .. } => "strokes on both sides of the origin",
         Role::Shape { term, index } => {

@@ -373,10 +373,10 @@ fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refus
         .map(|(name, _)| format!("correlated with {name}"));
     let reason = match (entry.refused.clone(), with) {
         (Some(reason), _) => reason,
-        (None, Some(with)) if wide => format!("interval wider than half its value, and {with}"),
+        (None, Some(with)) if wide => format!("interval wider than half of the value, and {with}"),
         (None, Some(with)) => with,
-        (None, None) if wide => "interval wider than half its value".to_owned(),
-        (None, None) => "no part of the output depends on this parameter alone".to_owned(),
+        (None, None) if wide => "interval wider than half of the value".to_owned(),
+        (None, None) => "no part of the output depends only on this parameter".to_owned(),
     };
     Refusal {
         reason,

@@ -15,7 +15,7 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     match added.len() {
         0 if ledger.unknown.is_some() => {
             return format!(
-                "The baseline model lacks something that matches no effect in the catalogue; with a free curve instead, the held-out error goes {}.",
+                "The missing part of the baseline model matches no effect in the catalogue. With a free curve, the held-out error changes {}.",
                 from_to(before_after(data, ledger, done))
             )
         }
@@ -63,7 +63,7 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
     format!(
-        "The baseline model lacks {}, and something that matches no effect in the catalogue: with the named effects the held-out error goes from {} to {} of the output's standard deviation, and with an additional curve to {}.",
+        "The baseline model lacks {} and a part that matches no effect in the catalogue. With the named effects the held-out error changes from {} to {} of the output's standard deviation. An additional curve changes it to {}.",
         added.join(", then "),
         held_out(&ledger.declared.rmse),
         held_out(named),

@@ -18,104 +18,104 @@ impl Finding {
             // The reasons why there is no model.
             Self::OutputIntegrates { input, output, may_creep } => {
                 let swap = match may_creep {
-                    false => "they were mixed up".to_owned(),
-                    true => format!("`{input}` is the force and `{output}` the motion: a spring in series with a dashpot creeps under a constant force"),
+                    false => "they are in the wrong order".to_owned(),
+                    true => format!("`{input}` is the force and `{output}` is the motion (a spring in series with a dashpot creeps under a constant force)"),
                 };
-                format!("The output integrates the input: the rate of `{output}` follows `{input}`, not `{output}` itself. There was no search. Differentiate `{output}` first, or swap the columns if {swap}.")
+                format!("The output is the integral of the input: the rate of `{output}`, not its value, follows `{input}`. There was no search. Differentiate `{output}` first, or swap the columns if {swap}.")
             }
             Self::FilesScaled { files, of, unit } => scaled(files, *of, unit.as_deref()),
             Self::LoggedDifferently(suspicion) => suspected(suspicion),
-            Self::RowsShuffled { input, output } => format!("This record gives no model: neighbouring rows of the input `{input}` are unrelated, but `{output}` follows it row by row. Are the rows in time order?"),
-            Self::InputAtRest { input } => format!("This record gives no model: the input `{input}` is at rest and shows only its sensor's noise. Record a motion."),
+            Self::RowsShuffled { input, output } => format!("This record gives no model. Neighbouring rows of the input `{input}` are unrelated, but `{output}` follows `{input}` row by row. Are the rows in time order?"),
+            Self::InputAtRest { input } => format!("This record gives no model, because the input `{input}` is at rest and shows only sensor noise. Record a motion."),
             Self::ChannelTakesOver { input, explains, channels, alone } => format!(
-                "This is not a model of the transmission: {}, although in the baseline model alone the input explains {}. A channel repeats the output, as the angle behind a spring does: omit its column.",
+                "This is not a model of the transmission. In the final model {}, although in the baseline model the input explains {}. One of the channels repeats the output, as an angle behind a spring does. Omit its column.",
                 explained(input, *explains, *channels),
                 share(*alone)
             ),
             Self::NothingExplained { input, explains, channels } => format!(
-                "This record gives no model: {}. Is `{input}` the right input, in the right file, and is its sensor connected?",
+                "This record gives no model: {}. Is `{input}` the right input in the right file, and is its sensor connected?",
                 explained(input, *explains, *channels)
             ),
             // The reasons why the model must not be used on other data.
             Self::RigChanged { fit, held_out, since, output, terms } => {
-                let since = since.map(|t| format!(", from {t:.3} s on")).unwrap_or_default();
+                let since = since.map(|t| format!(" (after {t:.3} s)")).unwrap_or_default();
                 let added = match terms.as_slice() {
                     [] => String::new(),
                     terms => format!(" The search added {}.", terms.join(", then ")),
                 };
                 format!(
-                    "The model does not transfer: its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. Do not use this model on other data. Has the rig or the sensor of `{output}` changed between the two segments?{added}",
+                    "The model does not transfer. Its error is {} of the output's standard deviation on the fit segment and {} on the held-out segment{since}. Do not use this model on other data. Has the rig or the sensor of `{output}` changed between the two segments?{added}",
                     percent(*fit),
                     percent(*held_out),
                 )
             }
             Self::HeldOutFileScaled { path, gain, offset, unit, error } => format!(
-                "With a gain of {gain:.4} and an offset of {offset:.4}{} the error is {:.2} % on {path}: does a unit, a sign or a zero differ in that file? `--per-file gains` fits both for each file.",
+                "With a gain of {gain:.4} and an offset of {offset:.4}{} the error on {path} is {:.2} %. Does a unit, a sign or a zero differ in that file? `--per-file gains` fits the gains of each file separately.",
                 spaced(unit.as_deref()),
                 100.0 * error,
             ),
             Self::HeldOutFileDiffers => {
-                "`--per-file gains` shows whether only the gains differ there.".to_owned()
+                "Use `--per-file gains` to find out whether only the gains differ in the held-out file.".to_owned()
             }
             Self::WorseThanConstant { before, after } => format!(
-                "On the held-out segment the model is worse than a constant: its error goes {}. Do not use this model on other data.",
+                "On the held-out segment the model is worse than a constant. Its error changes {}. Do not use this model on other data.",
                 from_to((*before, *after))
             ),
             Self::HeldOutRises { ratio, before, after, terms, falls_up_to } => {
                 let mut text = format!(
-                    "The held-out error rises by a factor of {ratio:.1}, {}: do not use this model on other data.",
+                    "The held-out error rises by a factor of {ratio:.1}, {}. Do not use this model on other data.",
                     from_to((*before, *after))
                 );
                 if !terms.is_empty() {
-                    text += &format!(" The search added {}", terms.join(", then "));
+                    text += &format!(" The search added {}.", terms.join(", then "));
                     text += &match *falls_up_to {
-                        0 => "; the first of them already raises the error.".to_owned(),
-                        n if n < terms.len() => format!("; the error falls until {} is added.", terms[n - 1]),
-                        _ => "; only the final fit, on more data, raises the error.".to_owned(),
+                        0 => " The first of them already raises the error.".to_owned(),
+                        n if n < terms.len() => format!(" The error falls up to and including {}, and {} raises it.", terms[n - 1], terms[n]),
+                        _ => " Only the final fit, which uses more data, raises the error.".to_owned(),
                     };
                 }
                 text
             }
             // The residual.
             Self::ResidualIsNoise => "The residual is the sensor's noise.".to_owned(),
-            Self::HeldOutAboveNoise { held_out } => format!("The residual is the sensor's noise on the fit segment, but {held_out:.1} times this noise on the held-out segment: the two segments differ."),
+            Self::HeldOutAboveNoise { held_out } => format!("The residual is the sensor's noise on the fit segment, but {held_out:.1} times this noise on the held-out segment. The two segments differ."),
             Self::ResidualAboveNoise { floors, is_white, terms } => {
                 let size = match floors {
                     Some([fit, held_out]) => format!("The residual is {fit:.1} times the noise floor on the fit segment and {held_out:.1} times on the held-out segment"),
-                    None => "The record does not show its noise floor (the cut-off is too close to half the sampling rate)".to_owned(),
+                    None => "The noise floor of the record is unknown, because the cut-off frequency is too close to half the sampling rate".to_owned(),
                 };
                 let colour = match (is_white, terms) {
                     (None, _) => "",
-                    (Some(true), _) => "; it looks like white noise and depends on no measured quantity",
+                    (Some(true), _) => ". The residual is white and depends on no measured quantity",
                     // The first sentence already says that no effect was found.
-                    (Some(false), 0) => "; it is coloured",
-                    (Some(false), _) => "; it is coloured, but no further effect in the catalogue explains it",
+                    (Some(false), 0) => ". The residual is coloured",
+                    (Some(false), _) => ". The residual is coloured, but no further effect in the catalogue explains it",
                 };
                 format!("{size}{colour}.")
             }
             Self::NoNameForCurve { variable, by_effects } => {
                 // A reader who sees "95 %" asks why no effect is named: the refit and test decide.
                 let but = match *by_effects >= 1.0 - PART {
-                    true => ", but none is accepted after a refit",
+                    true => ", but a refit accepts none of them",
                     false => "",
                 };
                 format!(
-                    "The residual depends on {variable}; to first order, the best one or two effects in the catalogue explain {:.0} % of the squared error that a curve explains{but}.",
+                    "The residual depends on {variable}. To first order, the best one or two effects in the catalogue explain {:.0} % of the squared error that a curve explains{but}.",
                     100.0 * by_effects
                 )
             }
             Self::TermsConfounded { pairs } => {
-                format!("This record cannot distinguish {}.", pairs.join("; nor "))
+                format!("This record cannot distinguish {}.", pairs.join(", or "))
             }
             Self::TooFewBlocks { terms } => {
                 let names = match terms {
-                    0 => "only a large effect would be found",
-                    _ => "the named terms are only candidates",
+                    0 => "so only a large effect would be found",
+                    _ => "so the named terms are only candidates",
                 };
-                format!("The record has too few independent stretches for a test: {names}.")
+                format!("The record has too few independent blocks for a test, {names}.")
             }
             Self::PoorModel { error } => {
-                format!("The model is poor: its error is {} of the output.", percent(*error))
+                format!("The model is poor: its error is {} of the output's standard deviation.", percent(*error))
             }
             // About the record.
             Self::DefectiveMeasurement { defects } => {
@@ -124,20 +124,20 @@ impl Finding {
                 let all: Vec<String> = all.collect();
                 format!("The measurement is defective: {}. Correct the cause and record again.", all.join(", "))
             }
-            Self::OneStroke { input } => format!("`{input}` reverses less than twice on the fit segment: sigma and n are not identified, and the model holds for this stroke only. Record strokes in both directions."),
-            Self::InputIsVelocity { input } => format!("Is `{input}` a velocity? The input must be a displacement: use the position as the input, or integrate this column."),
+            Self::OneStroke { input } => format!("`{input}` reverses fewer than two times on the fit segment. Therefore sigma and n are not identified, and the model holds only for this stroke. Record strokes in both directions."),
+            Self::InputIsVelocity { input } => format!("Is `{input}` a velocity? The input must be a displacement. Use the position as the input, or integrate this column."),
             Self::Extrapolation(Outside { channel, unit, seen, here, .. }) => {
                 let unit = spaced(unit.as_deref());
                 let ends = |[low, high]: [f64; 2]| format!("{} to {}", four_digits(low), four_digits(high));
                 format!(
-                    "The fit segment covers `{channel}` from {}{unit}, and the held-out segment covers it from {}{unit}: the held-out error is an extrapolation error.",
+                    "`{channel}` covers {}{unit} on the fit segment, but {}{unit} on the held-out segment. The held-out error is therefore an extrapolation error.",
                     ends(*seen),
                     ends(*here)
                 )
             }
-            Self::MotionUnseen { input } => format!("The motion of `{input}` during the gap is unknown, and its effect persists in the hysteresis."),
+            Self::MotionUnseen { input } => format!("The motion of `{input}` during the gap is unknown, and it affects the hysteresis after the gap."),
             Self::FilesOfSeveralRigs { together, own } => format!(
-                "These files do not seem to come from one rig: on the fit segments one model for all files has an error of {:.1} % of the output's standard deviation; with separate gains for each file the error is {:.1} %. `--per-file gains` fits separate gains.",
+                "These files do not seem to come from one rig. On the fit segments, one model for all files has an error of {:.1} % of the output's standard deviation. With separate gains for each file, the error is {:.1} %. `--per-file gains` fits separate gains.",
                 100.0 * together,
                 100.0 * own
             ),
@@ -149,42 +149,42 @@ impl Finding {
                 format!("The preload changes in a step at the start of `{path}`. Does a sensor have a different zero in this file?{gains}")
             }
             Self::CoarseSensor { channel, unit } => coarse(channel, unit.as_deref()),
-            Self::OutputLeads { seconds } => format!("In the model the output precedes the input by about {:.1} ms, which is not causal: were both logged with the same clock? If they were, the model lacks an effect that looks like a lead.", 1e3 * seconds),
+            Self::OutputLeads { seconds } => format!("In the model the output precedes the input by about {:.1} ms, which is not causal. Were both signals logged with the same clock? If so, the model lacks an effect that produces a phase lead.", 1e3 * seconds),
             Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
-                true => format!("The output moves {:.0} times as much on the fit segment as on the held-out segment: the percentages of the two segments are not comparable.", fit / held_out),
-                false => format!("The output moves {:.0} times as much on the held-out segment as on the fit segment: the percentages of the two segments are not comparable.", held_out / fit),
+                true => format!("The output moves {:.0} times as much on the fit segment as on the held-out segment, so the percentages of the two segments are not comparable.", fit / held_out),
+                false => format!("The output moves {:.0} times as much on the held-out segment as on the fit segment, so the percentages of the two segments are not comparable.", held_out / fit),
             },
             // About the model.
             Self::PreslidingIsBacklash { sign_tells } => {
                 let own = match sign_tells {
-                    true => "; with the sign of kappa_x the term is a slipping spring; with the opposite sign, it is slack",
+                    true => ". With the sign of kappa_x, the term is a slipping spring. With the opposite sign, it is slack",
                     false => "",
                 };
-                format!("Presliding and backlash are the same function with opposite signs: either name is right{own}.")
+                format!("Presliding and backlash are the same function with opposite signs, so either name is correct{own}.")
             }
-            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input: is it a drift of `{output}`, for example of a sensor that warms up? A record of a rig that has run for longer would show which of the two it is."),
-            Self::HysteresisLeftOut => "The baseline hysteresis is excluded from the model: this record cannot distinguish it from a spring and an offset.".to_owned(),
+            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input. Is it a drift of `{output}`, for example of a sensor that warms up? To find out, record again after the rig has run for longer."),
+            Self::HysteresisLeftOut => "The model excludes the baseline hysteresis, because this record cannot distinguish it from a spring and an offset.".to_owned(),
             Self::HysteresisCancelled { share } => format!(
-                "On this record the hysteresis differs from a spring and an offset by only {} of the output: its gain and the gains of the spring and the offset nearly cancel, and the model holds only within the recorded range.",
+                "On this record the hysteresis differs from a spring and an offset by only {} of the output. The gains of the three nearly cancel, so the model holds only within the recorded range.",
                 percent(*share)
             ),
-            Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies: missing friction can cause such lines, even without an external disturbance.", terms.join(", ")),
-            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque: the friction of the cable grows with its tension, as with a rope around a post.".to_owned(),
-            Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times `{channel}`: the friction changes with the temperature."),
-            Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises: the sign of one of them is probably reversed, and `bowden design` refuses the model until this is corrected."),
-            Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the output's loop (kappa_eta {kappa_eta:.3}): its gain and the effect of {} partly cancel, so neither alone is a property of the rig.", terms.join(", ")),
-            Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need it: does it measure the output, as the angle behind a spring does? If so, omit its column."),
-            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`: in this record the load follows `{channel}`, so the model describes the load. It will not hold with another load: record another load, or name the transmission's terms in --baseline."),
-            Self::SearchStopped { seconds: Some(seconds), .. } => format!("The search stopped after {seconds} s, as requested: this is the best model so far, and further terms may be missing."),
-            Self::SearchStopped { terms: None | Some(0), .. } => "There was no search for effects, as requested.".to_owned(),
-            Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one effect, as requested: further terms may be missing.".to_owned(),
-            Self::SearchStopped { terms: Some(most), .. } => format!("The search stopped after {most} effects, as requested: further terms may be missing."),
+            Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies. Missing friction can cause such spectral lines without an external disturbance.", terms.join(", ")),
+            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as for a rope around a post.".to_owned(),
+            Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times `{channel}`, so the friction changes with the temperature."),
+            Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises. One of the two signs is probably reversed. `bowden design` rejects the model until you correct the sign."),
+            Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta {kappa_eta:.3}). Its gain and the effect of {} partly cancel, so neither is a property of the rig by itself.", terms.join(", ")),
+            Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need this channel. Does `{channel}` measure the output, as an angle behind a spring does? If so, omit its column."),
+            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record the load follows `{channel}`, so the model describes this load and no other. Record another load, or name the transmission's terms in --baseline."),
+            Self::SearchStopped { seconds: Some(seconds), .. } => format!("The search stopped after {seconds} s, as requested. This is the best model so far, and further terms may be missing."),
+            Self::SearchStopped { terms: None | Some(0), .. } => "There was no search for terms, as requested.".to_owned(),
+            Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one term, as requested. Further terms may be missing.".to_owned(),
+            Self::SearchStopped { terms: Some(most), .. } => format!("The search stopped after {most} terms, as requested. Further terms may be missing."),
             Self::RoundRaises { term, after: 0 } => format!("On held-out data the first term, {term}, already raises the error."),
-            Self::RoundRaises { term, after } => format!("On held-out data the error falls up to round {after}; {term} raises it."),
+            Self::RoundRaises { term, after } => format!("On held-out data the error falls up to and including term {after}, and {term} raises it."),
             Self::FileWorse { path, before, after } => format!("The error rises for {path}: {:.1} % → {:.1} %.", 100.0 * before, 100.0 * after),
-            Self::ManyTerms { .. } => "Terms after the third one have little meaning: several effects would fit equally well.".to_owned(),
+            Self::ManyTerms { .. } => "Terms after the third have little physical meaning, because several effects would fit equally well.".to_owned(),
             // Of a validation.
-            Self::ErrorAsExpected { error, own } => format!("The model holds: its error is {} of this record's output, compared with {} on the held-out part of its own record; nothing was refitted.", percent(*error), percent(*own)),
+            Self::ErrorAsExpected { error, own } => format!("The model holds: its error is {} of this record's output, compared with {} on the held-out part of its own record. Nothing was refitted.", percent(*error), percent(*own)),
             Self::ErrorAsExpectedInUnit { rmse: [here, own], unit, error, holds } => {
                 let unit = spaced(unit.as_deref());
                 let amount = |rmse: f64| number(rmse, Some(0.05 * rmse));
@@ -198,41 +198,41 @@ impl Finding {
                 };
                 format!("{verdict}: its error is {}{unit}, compared with {}{unit} on the held-out part of its own record. The output moves less here, so this error is {} of the output.{advice}", amount(*here), amount(*own), percent(*error))
             }
-            Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is the sensor's noise; nothing was refitted.", percent(*error)),
+            Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is the sensor's noise. Nothing was refitted.", percent(*error)),
             Self::ErrorTooLarge { error, own, with_line } => {
                 let own = own.map_or_else(
-                    || "an unknown error on its own record (its file states none)".to_owned(),
+                    || "an unknown error on its own record (the model file gives none)".to_owned(),
                     |own| format!("{} on the held-out part of its own record", percent(own)),
                 );
-                format!("The model does not hold: its error is {} of this record's output, compared with {own}; with a different gain and offset it is {}.", percent(*error), percent(*with_line))
+                format!("The model does not hold: its error is {} of this record's output, compared with {own}. With a different gain and offset, the error is {}.", percent(*error), percent(*with_line))
             }
-            Self::ErrorAtLimit { error, limit } => format!("This record is inconclusive: the error is {} of its output, and the limit is {}. Use a record of the same motion as the model's own.", percent(*error), percent(*limit)),
-            Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file states no error to compare it with.", percent(*error)),
-            Self::OutputAtNoise => "The output moves by little more than the noise: record a larger motion.".to_owned(),
+            Self::ErrorAtLimit { error, limit } => format!("This record is inconclusive: the error is {} of its output, and the limit is {}. Use a record with the same motion as the model's own record.", percent(*error), percent(*limit)),
+            Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file gives no error for comparison.", percent(*error)),
+            Self::OutputAtNoise => "The output moves by little more than the noise. Record a larger motion.".to_owned(),
             Self::LineChanged { gain, offset, unit, error, limit } => {
                 let offset = format!("{}{}", number(*offset, Some(0.05 * offset.abs())), spaced(unit.as_deref()));
                 let what = match gain {
                     None => format!("The offset has changed by {offset}"),
                     Some(gain) => format!("The gain has changed by a factor of {} (and the offset by {offset})", with_interval(gain.value, gain.ci95)),
                 };
-                format!("{what}: with this correction the error is {}; the limit is {}.", percent(*error), percent(*limit))
+                format!("{what}. With this correction the error is {}, and the limit is {}.", percent(*error), percent(*limit))
             }
-            Self::OutputUnitDiffers { output } => format!("Does `{output}` have a different unit or calibration here?"),
-            Self::ModelInexact { own } => format!("The model was not exact on its own record (an error of {}): on another motion such a model may have a larger error although the rig is the same.", percent(*own)),
-            Self::ModelNotTransferable => "The model's own verdict was `not-transferable`: do not use it on another record.".to_owned(),
+            Self::OutputUnitDiffers { output } => format!("Does `{output}` have a different unit or calibration in this record?"),
+            Self::ModelInexact { own } => format!("The model had an error of {} on its own record. On another motion such a model may have a larger error, even if the rig is the same.", percent(*own)),
+            Self::ModelNotTransferable => "The verdict of the model file is `not-transferable`. Do not use the model on another record.".to_owned(),
             Self::ResidualDependsOn { variable: None, .. } => "The residual depends on no measured quantity, as far as this record shows.".to_owned(),
             Self::ResidualDependsOn { variable: Some(variable), is_tested } => {
                 let proposal = match is_tested {
                     true => "",
-                    false => " (tentative: too few independent stretches for a test)",
+                    false => " (tentative: too few independent blocks for a test)",
                 };
                 format!("The residual depends on {variable}{proposal}.")
             }
             Self::RangesExceeded { ranges } => {
                 let ranges: Vec<String> = ranges.iter().map(|one| format!("the {} of {}", one.quantity, one.channel)).collect();
-                format!("The record exceeds the model's ranges in {}, where the model extrapolates.", ranges.join(", "))
+                format!("The record exceeds the range of the model in {}. The model extrapolates there.", ranges.join(", "))
             }
-            Self::InputContributesLittle { input, share } => format!("The model hardly depends on `{input}`, which contributes only {} of the output of this record: this validation would hardly show a change of that part of the transmission.", percent(*share)),
+            Self::InputContributesLittle { input, share } => format!("The model hardly depends on `{input}`, which contributes only {} of this record's output. This validation would hardly show a change in that part of the transmission.", percent(*share)),
         }
     }
 }
@@ -243,7 +243,7 @@ impl Finding {
     pub fn headline(&self) -> Option<String> {
         Some(match self {
             Self::OutputIntegrates { input, output, .. } => {
-                format!("CHECK THE COLUMNS: {output} integrates {input}")
+                format!("CHECK THE COLUMNS: {output} is the integral of {input}")
             }
             Self::FilesScaled { files, .. } => {
                 format!(
@@ -296,20 +296,22 @@ fn share(share: f64) -> String {
 
 /// The fractions explained by the input, the other channels and functions of time, in one clause.
 fn explained(input: &str, explains: Explained, channels: usize) -> String {
-    let mut text = format!(
+    let own = format!(
         "the input `{input}` explains {} of the held-out output",
         share(explains.input)
     );
-    if explains.channels >= 0.005 && channels > 0 {
-        text += &format!(", the other channels {}", share(explains.channels));
+    let more = [
+        (channels > 0).then_some((explains.channels, "the other channels explain")),
+        Some((explains.time, "functions of time explain")),
+    ];
+    let more = more.into_iter().flatten().filter(|more| more.0 >= 0.005);
+    let more = more.map(|(explained, who)| format!("{who} {}", share(explained)));
+    let all: Vec<String> = std::iter::once(own).chain(more).collect();
+    match &all[..] {
+        [first, second] => format!("{first}, and {second}"),
+        [first, second, third] => format!("{first}, {second}, and {third}"),
+        all => all.concat(),
     }
-    if explains.time >= 0.005 {
-        text += &format!(
-            ", and tones and drifts (functions of time only) {}",
-            share(explains.time)
-        );
-    }
-    text
 }
 
 /// Files with a different gain.
@@ -319,7 +321,7 @@ fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
     };
     let where_it_is = match of {
         2 => "in one of the two files",
-        _ => "there",
+        _ => "in that file",
     };
     let asked = match first.gain < 0.0 {
         true => format!("Does a sensor have the opposite sign {where_it_is}?"),
@@ -337,7 +339,7 @@ fn scaled(files: &[FileApart], of: usize, unit: Option<&str>) -> String {
         more => format!(" {} more files have a different gain.", more.len()),
     };
     format!(
-        "No single model describes these files: in `{}` the output is {} times the output with the gains of `{}`, with an offset of {}{}. An error of {:.1} % of its standard deviation remains with this correction, and {:.0} % without it.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
+        "No single model describes these files. In `{}` the output is {} times the output that the gains of `{}` give, plus an offset of {}{}. The error is {:.1} % of the output's standard deviation with this correction, and {:.0} % without it.{also} {asked} Correct the file, or fit the gains of each file with `--per-file gains`.",
         first.path,
         four_digits(first.gain),
         first.than,
@@ -355,7 +357,7 @@ fn question(alteration: &Alteration) -> String {
         Alteration::Scaled { column, .. } => format!("Does `{column}` have a different unit"),
         Alteration::Swapped { column, other } => format!("Are `{column}` and `{other}` swapped"),
         Alteration::Late { .. } => {
-            "Is the output late, or logged with a different clock".to_owned()
+            "Is the output delayed or logged with a different clock".to_owned()
         }
     }
 }
@@ -409,10 +411,10 @@ fn suspected(suspicion: &Suspicion) -> String {
 fn coarse(one: &CoarseChannel, unit: Option<&str>) -> String {
     let names = match one.names.as_slice() {
         [] => String::new(),
-        names => format!(", here {},", names.join(", ")),
+        names => format!(" ({})", names.join(", ")),
     };
     format!(
-        "`{}` has a resolution of {}{}, 1/{} of its range, and its steps account for much of the residual: terms that depend on its velocity or its reversals{names} are uncertain.",
+        "`{}` has a resolution of {}{}, 1/{} of its range, and its quantisation steps account for much of the residual. Terms that depend on its velocity or its reversals{names} are uncertain.",
         one.channel,
         four_digits(one.step),
         spaced(unit),

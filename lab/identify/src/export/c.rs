@@ -36,7 +36,7 @@ impl ModelFile {
             let tau = about.rates_time_constant_s;
             line!(
                 body,
-                "/* time_constant [s] to set after BOWDEN_RATES_SETTINGS_F32_INIT or _F64_INIT, for every source. */"
+                "/* Set time_constant [s] to this value after BOWDEN_RATES_SETTINGS_F32_INIT or _F64_INIT, for every source. */"
             );
             line!(
                 body,
@@ -52,7 +52,7 @@ impl ModelFile {
         if let Some(play) = &about.play {
             line!(
                 body,
-                "/* Half-width of bowden_play_init, before the input [{}]. */",
+                "/* Half-width for bowden_play_init, which is applied to the input [{}]. */",
                 commented(about.unit("input"))
             );
             for (suffix, is_single) in [("F32", true), ("F64", false)] {
@@ -74,14 +74,14 @@ impl ModelFile {
         let terms = self.terms.len();
         if terms > ROOM {
             return Err(format!(
-                "{terms} terms: the C interface has room for {ROOM}"
+                "the model has {terms} terms, but the C interface allows at most {ROOM}"
             ));
         }
         for term in &self.terms {
             let place = self.channels.iter().position(|name| *name == term.source);
             if place.is_some_and(|place| place >= ROOM) {
                 return Err(format!(
-                    "{} reads channel {}: the C interface has room for {ROOM} channels",
+                    "{} reads channel {}, but the C interface allows at most {ROOM} channels",
                     term.effect, term.source
                 ));
             }
@@ -125,10 +125,7 @@ impl ModelFile {
 
     /// The channels' places in a sample.
     fn places(&self, about: &About, upper: &str, out: &mut String) {
-        line!(
-            out,
-            "/* Number of channels of a sample: at least those that the model reads. */"
-        );
+        line!(out, "/* Smallest number of channels in a sample. */");
         line!(
             out,
             "#define {upper}_CHANNELS {}",
@@ -157,7 +154,7 @@ impl ModelFile {
         };
         line!(
             out,
-            "/* The model in {kind}, with its checksum: for bowden_model_load_{suffix}. */"
+            "/* The model in {kind} with its checksum, for bowden_model_load_{suffix}. */"
         );
         line!(
             out,
@@ -248,7 +245,10 @@ fn guarded(upper: &str, body: &str) -> String {
     );
     line!(out, "#endif");
     line!(out, "#else");
-    line!(out, "#define {guard} {own} /* CRC-32 of what follows */\n");
+    line!(
+        out,
+        "#define {guard} {own} /* CRC-32 of the text below */\n"
+    );
     out += body;
     line!(out, "#endif /* {guard} */");
     out

@@ -17,7 +17,7 @@ pub fn prefix(name: &str) -> Result<String, String> {
     let own = signs(name).to_lowercase();
     if !own.contains(|c: char| c.is_ascii_alphabetic()) {
         return Err(
-            "C names are derived from this name: it must contain a letter from a to z or a Greek letter, such as rig or rig_1"
+            "C names are derived from this name, so it must contain a letter from a to z or a Greek letter, as in rig or rig_1"
                 .to_owned(),
         );
     }
@@ -27,7 +27,7 @@ pub fn prefix(name: &str) -> Result<String, String> {
     };
     if TAKEN.contains(&prefix.as_str()) {
         return Err(
-            "is a name of the library, and names derived from it would be defined twice; choose another name"
+            "this is a name of the library, so names derived from it would be defined twice; choose another name"
                 .to_owned(),
         );
     }

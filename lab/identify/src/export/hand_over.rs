@@ -23,7 +23,7 @@ use crate::record::Record;
 use crate::scale::{HALF, SWING, TWENTIETH};
 
 /// The reason why a stage is not exported.
-const NO_INVERSE: &str = "--invertible: it has no inverse";
+const NO_INVERSE: &str = "it has no inverse, which --invertible requires";
 
 /// The effect of `--invertible` on the gain of a transmission at the bound.
 pub const TIED: &str = "fixed at 2·sigma·kappa_eta·rho by --invertible";
@@ -111,10 +111,10 @@ impl HandOver {
         if invertible && !done.solution.structure.hysteresis {
             let because = match done.without_hysteresis {
                 Some(_) => "this record cannot distinguish it from a spring and an offset",
-                None => "--baseline leaves it out",
+                None => "--baseline omits it",
             };
             return Err(format!(
-                "--invertible: only bouc-wen can be inverted, and {because}"
+                "--invertible: only bouc-wen can be inverted, but {because}"
             ));
         }
         let mut left_out = Vec::new();
@@ -153,7 +153,7 @@ impl HandOver {
         };
         if invertible && !own.feed_forward.invertible {
             return Err(format!(
-                "--invertible: found no invertible model: {}",
+                "--invertible: found no invertible model; as feed-forward: {}",
                 own.feed_forward.words()
             ));
         }
@@ -232,14 +232,16 @@ fn fitted_without(data: &Prepared, last: &Solution, invertible: bool) -> Result<
     let free = match has_clockwork(last) || structure.terms.len() < last.structure.terms.len() {
         false => last.clone(),
         true => fit_from(data, &structure, Some(&Known::of(last)), 0.0)
-            .ok_or("the model cannot be fitted without the terms that belong to the record")?,
+            .ok_or("the model cannot be fitted without the terms that belong only to the record")?,
     };
     if !invertible || !stands_against(data, &free)? {
         return Ok(free);
     }
     structure.invertible = true;
     let within = fit_from(data, &structure, Some(&Known::of(&free)), 0.0);
-    within.ok_or_else(|| "--invertible: the model cannot be fitted within the bound".to_owned())
+    within.ok_or_else(|| {
+        "--invertible: the model cannot be fitted within the bound of sigma".to_owned()
+    })
 }
 
 /// Whether any of a solution's models cannot be inverted.

@@ -77,7 +77,10 @@ pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
             )));
         }
         if effect.is_input_stage() {
-            return Ok(Some(format!("the inverse of {} jumps", term.effect)));
+            return Ok(Some(format!(
+                "the inverse of {} is discontinuous",
+                term.effect
+            )));
         }
     }
     let (gain, kappa) = match file.mode.as_str() {
@@ -109,7 +112,7 @@ const ABOVE: f64 = 1.39;
 pub fn caution(file: &ModelFile) -> Option<String> {
     let t = file.transmission.as_ref()?;
     let falls = (file.mode == "torque" && t.gain < 0.0).then(|| {
-        "the output falls while the input rises, which `bowden design` refuses".to_owned()
+        "the output falls while the input rises, which `bowden design` rejects".to_owned()
     });
     let all: Vec<String> = falls.into_iter().chain(unproved(file)).collect();
     (!all.is_empty()).then(|| all.join("; "))
@@ -130,8 +133,8 @@ fn unproved(file: &ModelFile) -> Option<String> {
     let n = three_digits(t.n);
     let has_room = ABOVE * t.sigma <= bound(t.gain, t.kappa_eta, t.rho);
     Some(match t.n <= MEASURED_N || has_room {
-        true => format!("with n = {n} it is tested, but not proved, that the f32 step has one input for each output"),
-        false => format!("with n = {n} and sigma {} close to its bound the f32 step may have more than one input for an output", three_digits(t.sigma)),
+        true => format!("for n = {n}, tests but no proof show that the f32 step has one input for each output"),
+        false => format!("for n = {n} and sigma {} close to its bound, the f32 step may have more than one input for an output", three_digits(t.sigma)),
     })
 }
 

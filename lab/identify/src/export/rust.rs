@@ -30,7 +30,7 @@ pub(super) fn origin(about: &About, play: &str) -> String {
     let (cutoff, rate) = (about.cutoff_hz, about.rate_hz);
     line!(
         out,
-        "//! Fitted below {cutoff} Hz to a record of {rate} samples per second."
+        "//! Fitted to a record sampled at {rate} Hz and low-pass filtered at {cutoff} Hz."
     );
     line!(out, "//!");
     if let Some(warning) = about.warning() {
@@ -40,21 +40,21 @@ pub(super) fn origin(about: &About, play: &str) -> String {
     let errors = &about.nrmse;
     line!(
         out,
-        "//! Error as a share of the output's standard deviation: fit {}, held out {}.",
+        "//! Error as a share of the output's standard deviation: fit {}, held-out {}.",
         per_cent(errors.fit),
         per_cent(errors.held_out)
     );
     if let Some(causal) = errors.held_out_causal {
         line!(
             out,
-            "//! Held-out error sample by sample, with the rates below: {}.",
+            "//! Held-out error sample by sample, with the time constant below: {}.",
             per_cent(causal)
         );
     }
     if let Some(before) = &about.play {
         line!(
             out,
-            "//! The same with the input through {play} of half-width {}: {}.",
+            "//! The same error with {play} of half-width {} on the input: {}.",
             number(before.half_width),
             per_cent(before.held_out_causal)
         );
@@ -99,7 +99,7 @@ impl ModelFile {
         if about.rates_time_constant_s > 0.0 {
             line!(
                 out,
-                "/// Time constant of `bowden::signal::Rates` for the rates of every source [s]."
+                "/// Time constant [s] of `bowden::signal::Rates` for every source."
             );
             line!(out, "#[allow(dead_code)]");
             line!(
@@ -146,7 +146,7 @@ impl ModelFile {
             line!(out, "//!");
             line!(
                 out,
-                "//! The rates of each source, once per sample, each source with its own `RatesState`:"
+                "//! Compute the derivatives of each source once per sample, with a `RatesState` for each source:"
             );
             line!(
                 out,
@@ -154,7 +154,7 @@ impl ModelFile {
             );
             line!(
                 out,
-                "//! For a feed-forward: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
+                "//! Feed-forward controller: `Compensator::try_new(&model()?)?.with_ranges(&ranges())?`."
             );
         }
         line!(out);
@@ -215,7 +215,7 @@ impl ModelFile {
         let terms = self.terms.len();
         line!(
             out,
-            "/// The terms of the model, each with the type of its effect."
+            "/// The terms of the model, with the type of each effect."
         );
         line!(out, "#[allow(dead_code)]");
         let mut types = Vec::with_capacity(terms);
@@ -241,11 +241,14 @@ impl ModelFile {
         line!(out);
         line!(
             out,
-            "/// The identified model as a type that can hold any effect: for a `Compensator` or a file."
+            "/// The identified model in a type that can hold any effect, for a `Compensator` or a file."
         );
         line!(out, "///");
         line!(out, "/// # Errors");
-        line!(out, "/// None with the numbers below.");
+        line!(
+            out,
+            "/// None, because the constructors accept the numbers below."
+        );
         line!(out, "#[allow(dead_code)]");
         line!(
             out,
@@ -262,14 +265,17 @@ impl ModelFile {
             self.fixed_types(out)?;
             line!(
                 out,
-                "/// The identified model; firmware links only the effects that it names."
+                "/// The identified model. Firmware links only the effects that it names."
             );
         } else {
             line!(out, "/// The identified model.");
         }
         line!(out, "///");
         line!(out, "/// # Errors");
-        line!(out, "/// None with the numbers below.");
+        line!(
+            out,
+            "/// None, because the constructors accept the numbers below."
+        );
         // A fitted number that is near pi is not pi.
         line!(out, "#[allow(dead_code, clippy::approx_constant)]");
         let terms = self.terms.len();
@@ -391,7 +397,7 @@ impl ModelFile {
         line!(out);
         line!(
             out,
-            "/// Range in the fitted record of each source that the model reads, for `Compensator::with_ranges`."
+            "/// Recorded range of each source that the model reads, for `Compensator::with_ranges`."
         );
         line!(out, "#[allow(dead_code, clippy::approx_constant)]");
         line!(

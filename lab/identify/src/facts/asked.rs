@@ -110,7 +110,7 @@ impl Asked {
         let paths: Vec<PathBuf> = files.iter().map(|(label, _)| label.into()).collect();
         let mut rest = files.iter();
         let records = Self::all_of(&paths, |_| {
-            let (label, bytes) = rest.next().ok_or("no file is left")?;
+            let (label, bytes) = rest.next().ok_or("no file remains")?;
             self.read_text(bytes, label)
         })?;
         let sources = files
@@ -160,13 +160,13 @@ impl Asked {
         let label = label(records);
         if data.is_shuffled() {
             return Err(format!(
-                "{label}: neighbouring rows of `{}` are unrelated, but the output follows it row by row: the rows must be in time order",
+                "{label}: neighbouring rows of `{}` are unrelated, but the output follows the input row by row; the rows must be in time order",
                 data.input.name
             ));
         }
         match data.is_at_rest() {
             true => Err(format!(
-                "{label}: the input `{}` is at rest and shows only its sensor's noise: record a motion",
+                "{label}: the input `{}` is at rest and shows only sensor noise; record a motion",
                 data.input.name
             )),
             false => Ok((data, structure)),

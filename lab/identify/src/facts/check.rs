@@ -116,7 +116,7 @@ impl ModelOfFile {
     pub fn could_hold(&self) -> Result<(), String> {
         match self.given.about.verdict.as_deref() {
             Some("no-input-dependence") => Err(
-                "its verdict is `no-input-dependence`: it does not describe its own records, so it cannot be validated; `bowden identify` says what to do"
+                "the model does not describe its own records (verdict `no-input-dependence`), so it cannot be validated; `bowden identify` prints the reason"
                     .to_owned(),
             ),
             _ => Ok(()),

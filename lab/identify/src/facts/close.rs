@@ -184,9 +184,7 @@ pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Resul
     let (mut data, mut structure) = asked.prepare_all(records, question.own_gains)?;
     if question.own_gains {
         if !structure.hysteresis {
-            return Err(
-                "--per-file gains: these belong to bouc-wen, which --baseline omits".to_owned(),
-            );
+            return Err("--per-file gains needs bouc-wen, which --baseline omits".to_owned());
         }
         structure.own_gains = records.len();
     }
@@ -272,7 +270,7 @@ fn hint(declared: &Solution, own: &Solution) -> Option<String> {
     let left = own.rmse.fit / declared.rmse.fit;
     (left < HALF).then(|| {
         format!(
-            "fitting separate gains for each file reduces the baseline model's error on the fit segments to {:.0} % of its value with common gains: try --per-file gains",
+            "with separate gains for each file, the error of the baseline model on the fit segments is {:.0} % of the error with common gains; try --per-file gains",
             100.0 * left
         )
     })

@@ -48,7 +48,7 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
         Some(calmed) => {
             let unit = data.input.unit.as_ref().map(|unit| format!(" {unit}"));
             format!(
-                "In firmware, sample by sample, {errors}: the noise of `{}` drives the hysteresis. With `signal::Play` of half-width {}{} on the input, the error is {}.",
+                "In firmware (sample by sample) {errors}, because the noise of `{}` drives the hysteresis. With `signal::Play` of half-width {}{} on the input, the error is {}.",
                 data.input.name,
                 three_digits(calmed.half_width),
                 unit.unwrap_or_default(),
@@ -56,7 +56,7 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
             )
         }
         None => format!(
-            "In firmware, sample by sample with causal velocities{}, {errors}.",
+            "In firmware (sample by sample, with causal velocities{}) {errors}.",
             spikes(data)
         ),
     };
@@ -67,7 +67,7 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
 pub(super) fn price(hand: &HandOver) -> Option<String> {
     hand.is_another().then(|| {
         format!(
-            "The exported model can be inverted and has a held-out error of {} of the output's standard deviation; the unconstrained model has {}.",
+            "The exported model can be inverted and has a held-out error of {} of the output's standard deviation, compared with {} for the unconstrained model.",
             percent(hand.nrmse.held_out),
             percent(hand.as_fitted.held_out)
         )
@@ -84,7 +84,7 @@ pub(super) fn useless(hand: &HandOver) -> Option<String> {
     let error = calmed.unwrap_or(hand.causal.held_out);
     (error > 1.0).then(|| {
         format!(
-            "Do not use this model in firmware: sample by sample, its held-out error is {} of the output's standard deviation, larger than the error of a constant.",
+            "Do not use this model in firmware. Sample by sample, its held-out error is {} of the output's standard deviation, which is larger than the error of a constant.",
             percent(error)
         )
     })

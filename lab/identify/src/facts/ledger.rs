@@ -153,7 +153,7 @@ impl UnknownFacts {
             curve: curve(&done.data, &done.solution),
             kept: match done.solution.structure.table.as_ref().and_then(Table::over) {
                 Some(_) => {
-                    "the final model contains the curve; the exported model approximates it with fewer points"
+                    "the final model contains the curve, and the exported model approximates it with fewer points"
                 }
                 None => "the final model contains the curve, but the exported model does not",
             },

@@ -72,7 +72,7 @@ pub fn power(
         .search(&data, &structure, tell)
         .map_err(|message| format!("{}: {message}", record.path))?;
     let table = try_all(&data, &ledger, question, |done, all| {
-        tell(&format!("planting: {done} of {all} effects"));
+        tell(&format!("testing: {done} of {all} effects"));
     })?;
     Ok(PowerFacts {
         label: record.path.clone(),

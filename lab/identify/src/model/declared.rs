@@ -41,7 +41,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         names.sort_unstable();
         names.dedup();
         let near = nearest(name, names);
-        format!("--baseline {name}: no such effect{near}; allowed: bouc-wen, {known}, and any effect of these families by its own name, such as play-in-series")
+        format!("--baseline {name}: no such effect{near}; allowed are bouc-wen, {known}, and any single effect of these families, such as play-in-series")
     };
     let entry = entry(name).or_else(|| first_of(name)).ok_or_else(unknown)?;
     let source = match (given, entry.declared) {
@@ -59,7 +59,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
         (Declared::OnInput(scales), _) => (scales, Source::Input, 0.0),
         (Declared::Never, _) => {
             return Err(format!(
-                "--baseline {name}: only the search adds this effect; leave it out"
+                "--baseline {name}: only the search can add this effect; omit it"
             ))
         }
     };

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// The note on such an output.
 pub(super) fn words(output: &str, input: &str) -> String {
-    format!("`{output}` has the opposite sign to the motion of `{input}`: friction has a negative gain here")
+    format!("`{output}` has the opposite sign to the motion of `{input}`, so friction has a negative gain")
 }
 
 /// Whether the output supplies energy to the motion instead of dissipating it, as friction and

@@ -38,7 +38,9 @@ impl Prepared {
             on_work.extend(thinned.take(piece.work.len()));
         }
         if on_work.len() != self.output.len() {
-            return Err("the model's output cannot be resampled to the record's grid".to_owned());
+            return Err(
+                "the model's output cannot be resampled to the time grid of the record".to_owned(),
+            );
         }
         Ok(filtered(
             &self.smoother,

@@ -97,7 +97,7 @@ impl Prepared {
             .find(|(_, own)| **own > RATES_APART * step)
         {
             return Err(named(record, format!(
-                "has {:.6} samples per second, but another file has {:.6}: the rates may differ by at most a factor of {RATES_APART}",
+                "sampled at {:.6} Hz, but another file is sampled at {:.6} Hz; the rates may differ by at most a factor of {RATES_APART}",
                 1.0 / own,
                 1.0 / step
             )));
@@ -170,7 +170,7 @@ fn cutoff(
     match preparation.cutoff {
         // What the line below prints as the most is allowed, whatever its last digit is.
         Some(cutoff) if cutoff <= 0.4 * rate * (1.0 + 1e-6) => Ok(cutoff),
-        Some(cutoff) => Err(format!("--cutoff {cutoff} Hz is too high: the record has {rate:.6} samples per second and allows at most {:.6} Hz", 0.4 * rate)),
+        Some(cutoff) => Err(format!("--cutoff {cutoff} Hz is too high; a record sampled at {rate:.6} Hz allows at most {:.6} Hz", 0.4 * rate)),
         None => {
             let own = inputs.iter().map(|i| spectrum::default_cutoff(i, 1.0 / step));
             let highest = own.fold(0.0, f64::max);
@@ -314,7 +314,7 @@ impl Collected {
     fn note(&mut self, record: &Record, uniform: &Uniform, rest: Option<&String>, several: bool) {
         let stretched = (uniform.stretched > 0).then(|| {
             format!(
-                "time is not uniform: {} steps are longer than 1.5 samples; resampled at {:.6} Hz",
+                "resampled at {1:.6} Hz, because {0} time steps are longer than 1.5 samples",
                 uniform.stretched,
                 1.0 / uniform.dt
             )
@@ -401,7 +401,10 @@ impl Collected {
         let kept_back = split.selection.len().min(split.held_out.len());
         let unseen = held_out == HeldOut::Nothing || kept_back >= 20;
         if split.fit.len() < 96 || !unseen {
-            return Err("too few samples remain without gaps and defects".to_owned());
+            return Err(format!(
+                "too few filtered samples remain without gaps and defects: {} for the fit (at least 96 are needed), and {kept_back} in the smaller other segment (at least 20)",
+                split.fit.len()
+            ));
         }
         let smoother = ZeroPhase::new(grid.cutoff, 1.0 / grid.dt);
         let against = first.mode == Mode::Displacement

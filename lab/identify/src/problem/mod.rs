@@ -47,7 +47,7 @@ pub const MOST_RECORDS: usize = 64;
 pub fn together(records: usize) -> Result<(), String> {
     match records > MOST_RECORDS {
         true => Err(format!(
-            "{records} records: at most {MOST_RECORDS} can be fitted together; --glob PATTERN --out ROWS.parquet identifies each one separately"
+            "{records} records are too many for one model (at most {MOST_RECORDS}); --glob PATTERN --out ROWS.parquet identifies each one separately"
         )),
         false => Ok(()),
     }

@@ -56,9 +56,12 @@ pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<
         .into_iter()
         .flatten()
         .collect();
-    let left_out = format!("nothing moves {}: excluded", ends.join(" and "));
+    let left_out = format!(
+        "nothing moves {}, so these samples are excluded",
+        ends.join(" and ")
+    );
     let line = format!(
-        "the input moves by no more than its noise for {still:.3} s in total; straight lines replace it there, because the noise would drive the hysteresis"
+        "for {still:.3} s in total, the input moves by no more than its noise; straight lines replace the noise, which would drive the hysteresis"
     );
     let said = [(!ends.is_empty(), left_out), (still > 0.0, line)];
     let said: Vec<String> = said

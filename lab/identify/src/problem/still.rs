@@ -46,9 +46,9 @@ pub(super) fn is_at_rest(column: &[f64]) -> bool {
 /// The note on a channel that is only noise in each of some records.
 pub(super) fn note(channel: &str, records: usize) -> String {
     match records {
-        1 => format!("`{channel}` shows only its sensor's noise: no term reads it"),
+        1 => format!("`{channel}` shows only sensor noise, so no term reads it"),
         _ => format!(
-            "within each file `{channel}` shows only its sensor's noise: it has one value per file, and no term reads it"
+            "within each file `{channel}` shows only sensor noise, so it has one value per file and no term reads it"
         ),
     }
 }

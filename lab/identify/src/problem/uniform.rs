@@ -57,7 +57,7 @@ impl Uniform {
         // Past this there is more gap than record, and the grid would not fit into memory.
         if span / own > 20.0 * time.len() as f64 {
             return Err(format!(
-                "the record spans {span:.6} s, but its usual time step is {own:.6} s: most of it consists of gaps; cut the record with --start and --end"
+                "the record spans {span:.6} s, but its usual time step is {own:.6} s, so the record consists mostly of gaps; cut it with --start and --end"
             ));
         }
         let len = (span / dt + 1e-6).floor() as usize + 1;

@@ -8,82 +8,83 @@ use crate::scale::{HALF, PART};
 
 /// Range of the minimum reduction of ln SSE if the blocks are too short for a test.
 ///
-/// At the lower end, coloured nulls with few independent values gave no term. The upper end is a
+/// With the lower end, coloured nulls with few independent values gave no term. The upper end is a
 /// choice: an effect that halves the SSE (0.69) is always worth a proposal.
 pub const LEAST_UNTESTED: (f64, f64) = (0.105, 0.69);
 
 /// Minimum squared norm of the residual of a unit-norm column after regression on the model.
 ///
-/// A choice: below this value, rounding and the errors of the model determine the coefficient.
+/// A choice: below this value, rounding errors and model errors determine the coefficient.
 pub const EXCITED: f64 = 1e-4;
 
-/// A term that removes at least this share of the SSE only has to be no worse on the selection
-/// segment.
+/// If a term removes at least this share of the SSE, its only condition on the selection segment is
+/// that it does not raise the error.
 ///
-/// No null has reached this share.
+/// No record without a missing effect has reached this share.
 pub const LARGE: f64 = 0.3;
 
-/// [`LARGE`] if the blocks are too short for a test.
+/// The value of [`LARGE`] if the blocks are too short for a test.
 ///
 /// A choice: a residual with a longer memory gives larger shares by chance.
 pub const LARGE_UNTESTED: f64 = 0.6;
 
-/// Minimum reduction of ln SSE by an unmodelled curve beyond the best set of terms, while further
-/// terms are still found: a factor of 2.
+/// Minimum reduction of ln SSE by an unmodelled curve, compared with the best set of terms, while
+/// further terms are still found: a factor of 2.
 ///
-/// A choice: a curve of ten hats fits any two terms over one variable, so it must be clearly
-/// better. If the residual is more than noise, the same value applies to a power law instead of
-/// viscous and Coulomb friction together. On measured records that this pair describes, the power
-/// law lowers ln SSE by up to 0.21 more, in every block: by 0.17 on the positioning drive, which has
-/// viscous and Coulomb friction, and by 0.21 on a damper, where it transfers worse to other records
-/// (`lab/notes/catalogue.md`).
+/// A choice: a curve of ten hat functions fits any two terms over one variable, so it must be
+/// clearly better. If the residual exceeds the noise, the same value applies to a power law that
+/// replaces viscous and Coulomb friction. On measured records that this pair describes, the power
+/// law lowers ln SSE by up to 0.21 more, in every block. The difference is 0.17 on the positioning
+/// drive, which has viscous and Coulomb friction. It is 0.21 on a damper, where the power law
+/// transfers worse to other records (`lab/notes/catalogue.md`).
 pub const CURVE_AGAINST_NAMES: f64 = core::f64::consts::LN_2;
 
-/// The same once no further term is found: a factor of 1.25, or a share of 20 %.
+/// The same minimum after no further term is found: a factor of 1.25, or a share of 20 %.
 ///
-/// With this value all bumps and spikes of three times the noise are found (30 of 30). A mechanism
-/// must lower the left-out error by as much, which is a choice.
+/// With this value, the search finds all bumps and spikes of three times the noise (30 of 30). A
+/// mechanism must lower the left-out error by as much, which is a choice.
 pub const CURVE_AFTER_NAMES: f64 = 0.2231;
 
 /// Maximum number of terms in a model.
 ///
-/// On the ten measured records, later terms are not found again in a second record of the rig.
+/// On the ten measured records, later terms are not found again in a second record of the same rig.
 pub const MOST_NAMES: usize = 8;
 
-/// Number of moves that are refitted in one round, the most promising one first.
+/// Number of moves that one round refits, the most promising one first.
 ///
-/// A choice: the first-order gains of similar effects differ by less than their errors, so only a
-/// refit of several moves decides.
+/// A choice: the first-order estimates for similar effects differ by less than their errors, so
+/// only a refit of several moves decides.
 pub const REFITTED: usize = 3;
 
-/// Number of effects over the variable of a curve that are each refitted before the curve is
-/// accepted.
+/// Number of effects over the variable of a curve that the search refits before it accepts the
+/// curve.
 ///
-/// A dead zone whose gap lies between trial shapes has a smaller first-order gain than a curve, and
-/// than seven effects that imitate it. The number is a choice.
+/// A dead zone whose width is between two trial shapes has a smaller first-order estimate than a
+/// curve and seven effects that imitate the dead zone. The number is a choice.
 pub const INSTEAD: usize = 4;
 
-/// Once no further term is found, the best of the moves that reduce the number of terms by at least
-/// this many is refitted too, whatever its first-order gain.
+/// After no further term is found, the search also refits the best of the moves that reduce the
+/// number of terms by at least this many, whatever its first-order estimate.
 ///
-/// In a planted record (torque, 60 s, seed 30006) three terms imitated a dead zone. The dead zone
-/// was added later, and no removal of one or two of these terms was better; the removal of all three
-/// is.
+/// In a synthetic record (torque, 60 s, seed 30006) three terms imitated a planted dead zone. After
+/// the search added the dead zone, no removal of one or two of these terms was better, but the
+/// removal of all three was.
 pub const MANY: usize = 3;
 
-/// Number of successive rounds without an accepted move after which a phase of the search ends.
+/// A phase of the search ends after this number of successive rounds without an accepted move.
 ///
-/// A choice: a second round refits the moves after the best three.
+/// A choice: the second round refits the moves after the best three.
 pub const FAILURES: usize = 2;
 
-/// Number of half-sets of blocks that decide how many terms are delivered.
+/// Number of half-sets of blocks that decide how many terms the final model has.
 ///
-/// A choice: ten complementary pairs, so that each block is left out equally often.
+/// A choice: ten complementary pairs, so that each block is left out with the same frequency.
 pub const HALVES: usize = 20;
 
-/// Maximum excess of the criterion after a rough search for which a move is searched further.
+/// A move is searched further only if its criterion after a rough search exceeds that of the
+/// present model by at most this value.
 ///
-/// A choice: with this value the ten measured records still reach their goals.
+/// A choice: with this value, the ten measured records still reach their goals.
 pub const HOPELESS: f64 = 0.5;
 
 /// The largest SSE at which an effect does as well as the named one, from the SSE without either

@@ -7,12 +7,13 @@ use bowden_lab::record::Options;
 fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
     let asks = |step: &str, unit: &str, start: &str| {
         format!(
-            "r.csv:1: column `t`: states no unit and was read as seconds; its median step is {step} s: \
-             is the unit {unit}? Then set --time 't [{unit}]', or 't [s]' if it is s{start}"
+            "r.csv:1: column `t`: the time has no unit and was read as seconds, with a median step of {step} s; \
+             set --time 't [{unit}]' if the unit is {unit}, or 't [s]' for seconds{start}"
         )
     };
-    let since =
-        |first: &str| format!("; the first stamp would be {first} s, which is thousands of years");
+    let since = |first: &str| {
+        format!("; in s, the first time stamp of {first} would be thousands of years")
+    };
     let of =
         |step: u64, first: u64| with_time("t,x,f", move |i| (first + step * i as u64).to_string());
     refused(of(2_000, 0), &asks("2000", "µs", ""));
@@ -52,7 +53,7 @@ fn a_stamp_of_another_form_says_which_forms_are_read() {
         refused(
             with_line(2, &format!("{cell},1,2")),
             &format!(
-                "r.csv:2: column `t`: `{cell}` is neither a number nor a time in a known format: {expected}"
+                "r.csv:2: column `t`: `{cell}` is neither a number nor a time in a known format; {expected}"
             ),
         );
     };
@@ -86,7 +87,7 @@ fn marks_and_separators_of_thousands_are_told_from_other_words() {
                 .replace(',', "\t")
                 .replace("CELL", cell),
             &format!(
-                "r.csv:9: column `x`: `{cell}` is not a number: bowden does not read thousands separators; use digits without them"
+                "r.csv:9: column `x`: `{cell}` is not a number, because bowden does not read thousands separators; remove the separators"
             ),
         );
     }
@@ -108,8 +109,8 @@ fn cuts_that_leave_nothing_say_from_where_they_count() {
     });
     assert_eq!(
         refusal(text, &options),
-        "r.csv:401: too short: 0 samples of 400 are left after cutting; the minimum is 200; \
-         --start and --end count seconds from the first time stamp; the last one is at 3.990 s"
+        "r.csv:401: the record is too short: 0 samples of 400 remain after cutting; the minimum is 200; \
+         --start and --end are in seconds after the first time stamp, and the last time stamp is at 3.990 s"
     );
 }
 

@@ -25,13 +25,16 @@ fn read(bytes: impl AsRef<[u8]>, notes: &[&str]) -> Record {
 #[test]
 fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     let plain = csv("t,x,f", &rows());
-    let note = "numbers have a decimal comma";
+    let note = "decimal commas were read";
     read(comma(&plain, ";"), &[note]);
     read(comma(&plain, "\t"), &[note]);
     // Integers say nothing of the sign.
     read(plain.replace(',', ";").replace("0.00;", "0;"), &[]);
     // Behind commas a comma separates.
-    refused(comma(&plain, ","), "r.csv:2: 6 cells, but the header has 3");
+    refused(
+        comma(&plain, ","),
+        "r.csv:2: the row has 6 cells, but the header has 3",
+    );
     refused(
         comma(&plain, ";").replace("0,20;", "0.20;"),
         "r.csv:22: column `t`: `0.20` has a decimal point; write a decimal comma, as in line 2",
@@ -43,7 +46,7 @@ fn a_decimal_comma_is_read_behind_semicolons_and_tabs() {
     let thousands = comma(&plain, ";").replace("0,20;", "1.000,20;");
     refused(
         thousands,
-        "r.csv:22: column `t`: `1.000,20` is not a number: bowden does not read thousands separators; use digits without them",
+        "r.csv:22: column `t`: `1.000,20` is not a number, because bowden does not read thousands separators; remove the separators",
     );
 }
 
@@ -60,14 +63,14 @@ fn commas_that_may_separate_thousands_are_refused() {
     };
     refused(
         with(&|i| grouped(900 + i), &seconds),
-        "r.csv:102: column `f`: `1,000` may be 1.000 or 1000, next to `900` without a comma in \
-         line 2; write thousands without a separator, or the same number of decimals in every cell",
+        "r.csv:102: column `f`: `1,000` may mean 1.000 or 1000, because `900` in \
+         line 2 has no comma; write thousands without a separator, or the same number of decimals in every cell",
     );
     // Time would run backwards at this place.
     refused(
         with(&|i| format!("{i},5"), &|i| grouped(10 * i)),
-        "r.csv:102: column `t`: `1,000` may be 1.000 or 1000, next to `0` without a comma in \
-         line 2; write thousands without a separator, or the same number of decimals in every cell",
+        "r.csv:102: column `t`: `1,000` may mean 1.000 or 1000, because `0` in \
+         line 2 has no comma; write thousands without a separator, or the same number of decimals in every cell",
     );
     // Three decimals in every cell, four digits without a comma, another number of decimals.
     for (force, value) in [
@@ -98,7 +101,7 @@ fn commas_that_may_separate_thousands_are_refused() {
     ] {
         let record = accepted(with(force, &seconds));
         assert_eq!(record.output.values[100], value);
-        assert_eq!(record.notes, ["numbers have a decimal comma"]);
+        assert_eq!(record.notes, ["decimal commas were read"]);
     }
 }
 
@@ -107,7 +110,7 @@ fn a_preamble_and_a_row_of_units_are_found() {
     let values = rows().join("\n");
     let preamble = "Prüfstand;3\nDatum;01.02.2026\nKanäle;3\n\nWeg x;Kraft f;Kommentar\n";
     let german = |head: &str| format!("{head}{}\n", comma(&values, ";"));
-    let commas = "numbers have a decimal comma";
+    let commas = "decimal commas were read";
     let record = read(
         german(&format!("{preamble}t;x;f\ns;mm;N\n")),
         &[
@@ -124,7 +127,7 @@ fn a_preamble_and_a_row_of_units_are_found() {
         &[
             "lines 1–3 above the names ignored",
             "units from line 6",
-            "line 5 between names and values: ignored",
+            "line 5 between names and values ignored",
             commas,
         ],
     );
@@ -150,9 +153,9 @@ fn labelled_rows_of_a_trace_export_are_read() {
         &[
             "lines 1–4 above the names ignored",
             "units from line 7",
-            "line 6 between names and values: ignored",
+            "line 6 between names and values ignored",
             "columns not read: `name`",
-            "numbers have a decimal comma",
+            "decimal commas were read",
         ],
     );
     assert_eq!(record.input.unit.as_deref(), Some("mm"));
@@ -172,15 +175,15 @@ fn the_line_of_the_names_can_be_given() {
     );
     assert_eq!(
         refusal(&text, &at(0)),
-        "r.csv: --header-line 0: lines count from 1"
+        "r.csv: --header-line 0: lines are counted from 1"
     );
     assert_eq!(
         refusal(&text, &at(404)),
-        "r.csv: --header-line 404: the text has 403 lines"
+        "r.csv: --header-line 404: the file has only 403 lines"
     );
     assert_eq!(
         refusal(&text, &at(9)),
-        "r.csv:9: the line holds numbers; a header with column names is missing; --names t,x,f names the columns of a file without a header"
+        "r.csv:9: the line contains numbers, but it must be a header with column names; for a file without a header, use --names t,x,f"
     );
 }
 
@@ -188,7 +191,7 @@ fn the_line_of_the_names_can_be_given() {
 fn a_preamble_without_the_names_is_refused_at_the_line_that_should_have_them() {
     refused(
         format!("rig,3\nwhen,now\nt,x,force\n{}", rows().join("\n")),
-        "r.csv:3: column `f`: no such column among `t`, `x`, `force`; \
+        "r.csv:3: column `f`: no such column; the columns are `t`, `x`, `force`; \
          --output COL selects another one",
     );
 }
@@ -219,7 +222,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     // A row that was cut short, a spoilt one, and values behind the text are no text.
     refused(
         format!("{plain}4.00,1\n"),
-        "r.csv:402: 2 cells, but the header has 3",
+        "r.csv:402: the row has 2 cells, but the header has 3",
     );
     refused(
         format!("{plain}4.00,a,b\n"),
@@ -227,7 +230,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     );
     refused(
         format!("{plain}End\n4.00,1,2\n"),
-        "r.csv:402: 1 cells, but the header has 3",
+        "r.csv:402: the row has 1 cells, but the header has 3",
     );
     refused(
         format!("{plain}NaN,NaN,NaN\n"),
@@ -240,7 +243,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
 fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     // As LabVIEW writes it: a name for comments, and no cell for them.
     let note =
-        "each row has only 3 of the header's 4 cells; the columns without cells are not read";
+        "each row has only 3 cells, but the header has 4; the columns without cells are not read";
     let text = csv("t,x,f,Comment", &rows());
     same(
         &text,
@@ -252,13 +255,13 @@ fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     cut[7] = "0.07,1.0".to_owned();
     refused(
         csv("t,x,f,Comment", &cut),
-        "r.csv:9: 2 cells, but the header has 4",
+        "r.csv:9: the row has 2 cells, but the header has 4",
     );
     let mut long = rows();
     long[0] += ",start";
     refused(
         csv("t,x,f,Comment", &long),
-        "r.csv:3: 3 cells, but the header has 4",
+        "r.csv:3: the row has 3 cells, but the header has 4",
     );
     let lost: Vec<String> = rows().iter().map(|row| row[..4].to_owned()).collect();
     let line = refusal(csv("t,x,f", &lost), &Options::default());
@@ -288,7 +291,7 @@ fn names_are_found_in_other_letters_and_with_their_units() {
     // Two that could be meant, or a temperature, are none.
     refused(
         csv("t,X_mm,x_m,f", &rows().iter().map(|r| format!("{r},1")).collect::<Vec<_>>()),
-        "r.csv:1: column `x`: no such column among `t`, `X_mm`, `x_m`, `f` (nearest: `x_m`, `X_mm`); \
+        "r.csv:1: column `x`: no such column; the columns are `t`, `X_mm`, `x_m`, `f` (nearest: `x_m`, `X_mm`); \
          --input COL selects another one",
     );
     let line = refusal(csv("T,x,f", &rows()), &Options::default());
@@ -327,13 +330,13 @@ fn times_of_day_are_time_stamps() {
     }
     refused(
         stamped(&|i| if i == 7 { "7".to_owned() } else { day(i) }),
-        "r.csv:9: column `t`: `7` is not a time of day as in the rows above",
+        "r.csv:9: column `t`: `7` is not a time of day, unlike the cells above",
     );
     let line = refusal(
         stamped(&|i| day(i).replace("23:59:51", "00:00:01")),
         &Options::default(),
     );
-    assert!(line.contains("time runs backwards"), "{line}");
+    assert!(line.contains("the time decreases"), "{line}");
 }
 
 #[test]
@@ -347,12 +350,12 @@ fn times_of_day_over_midnight_ask_for_a_date_and_dates_are_days_of_the_calendar(
     };
     refused(
         over("", ""),
-        "r.csv:102: column `t`: time runs backwards, from 86399.99 to 0 s; does the record pass \
-         midnight? Then add a date",
+        "r.csv:102: column `t`: the time decreases from 86399.99 to 0 s; if the record passes \
+         midnight, add a date",
     );
     let line = refusal(over("2026-03-01 ", "2026-03-01 "), &Options::default());
     assert!(
-        line.contains("time runs backwards") && !line.contains("midnight"),
+        line.contains("the time decreases") && !line.contains("midnight"),
         "{line}"
     );
     for (before, after) in [
@@ -365,7 +368,7 @@ fn times_of_day_over_midnight_ask_for_a_date_and_dates_are_days_of_the_calendar(
     }
     refused(
         over("2026-02-28 ", "2026-02-29 "),
-        "r.csv:102: column `t`: `2026-02-29 00:00:00.00` is not a time of day as in the rows above",
+        "r.csv:102: column `t`: `2026-02-29 00:00:00.00` is not a time of day, unlike the cells above",
     );
 }
 
@@ -385,7 +388,7 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     assert_eq!((record.samples(), record.dropped), (396, 4));
     assert_eq!(
         record.notes,
-        ["--drop-bad dropped 4 rows: 2 with an empty cell, 1 with NaN, 1 with the time stamp of the row before"]
+        ["--drop-bad dropped 4 rows: 2 with an empty cell, 1 with NaN, 1 with a repeated time stamp"]
     );
     assert!(!record.time.contains(&0.20) && record.time.contains(&0.22));
     // Each is a gap, from a time column and from the row number.
@@ -404,7 +407,7 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     // Without it the first one is named.
     refused(
         &text,
-        "r.csv:22: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows",
+        "r.csv:22: column `x`: the cell is empty, but it must be a number; --drop-bad drops such rows",
     );
     spoilt = rows();
     spoilt[30] = "0.29,1,1".to_owned();
@@ -421,7 +424,7 @@ fn bad_rows_are_left_out_where_that_is_asked_for() {
     let empty: Vec<_> = rows().iter().map(|_| "0,,".to_owned()).collect();
     assert_eq!(
         refusal(csv("t,x,f", &empty), &drop),
-        "r.csv:401: too short: 0 samples of 400 are left after cutting and --drop-bad; the minimum is 200"
+        "r.csv:401: the record is too short: 0 samples of 400 remain after cutting and --drop-bad; the minimum is 200"
     );
 }
 
@@ -449,11 +452,11 @@ fn a_channel_is_the_difference_or_the_sum_of_two() {
     let line = |column: &str| of(&[("stretch", column)]).unwrap_err();
     assert_eq!(
         line("a-t"),
-        "r.csv:1: column `t`: has no unit; it must have unit rad, as `a` does, so that the two can be added or subtracted"
+        "r.csv:1: column `t`: the column has no unit, but it must have unit rad, as `a` has, so that the two can be added or subtracted"
     );
     assert_eq!(
         line("tau_i-tau_o"),
-        "r.csv:1: column `tau_o`: is the output and cannot also be channel `stretch`"
+        "r.csv:1: column `tau_o`: this column is the output, so it cannot also be channel `stretch`"
     );
     assert!(line("a-c").starts_with("r.csv:1: column `c`: no such column"));
     assert!(line("q-a").starts_with("r.csv:1: column `q`: no such column"));

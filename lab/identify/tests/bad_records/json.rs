@@ -37,11 +37,11 @@ fn a_fault_of_json_is_named_with_its_record() {
     );
     refused(
         spoilt(56, "\"x\"", "x"),
-        "r.csv:57: the file begins as JSON, but is not valid here: key must be a string",
+        "r.csv:57: the file begins as JSON, but the JSON is invalid here: key must be a string",
     );
     refused(
         spoilt(56, "\"x\": ", "\"x\": Infinity"),
-        "r.csv:57: the file begins as JSON, but is not valid here: expected value",
+        "r.csv:57: the file begins as JSON, but the JSON is invalid here: expected value",
     );
     let options = Options {
         drop_bad: true,
@@ -54,14 +54,14 @@ fn a_fault_of_json_is_named_with_its_record() {
 
 #[test]
 fn json_without_one_table_is_refused() {
-    let none = "r.csv: the JSON holds no table: allowed are an array of records, one record per line, or an object of columns";
+    let none = "r.csv: the JSON contains no table; use an array of records, one record per line, or an object of columns";
     for text in ["{\"t\": 1, \"x\": 2}", "{\"a\": {\"b\": []}}"] {
         refused(text, none);
     }
     let list = format!("[{}]", records(|_, own| own).replace('\n', ","));
     refused(
         format!("{{\"first\": {list}, \"second\": {list}}}"),
-        "r.csv: the JSON holds several tables (`first`, `second`); put each into a separate file",
+        "r.csv: the JSON contains several tables (`first`, `second`); write each to a separate file",
     );
     for text in ["[[0, 1, 2], [1, 2, 3]]", "[0, 1, 2]\n[1, 2, 3]"] {
         refused(
@@ -71,15 +71,15 @@ fn json_without_one_table_is_refused() {
     }
     refused(
         "[[\"t\", \"x\"], [1, 2, 3]]",
-        "r.csv:1: 3 cells, but there are 2 names",
+        "r.csv:1: the row has 3 cells, but there are 2 names",
     );
     refused(
         "{\"t\": [0, 1, 2], \"x\": [1, 2], \"f\": [1, 2, 3]}",
-        "r.csv: column `x`: has 2 values; it must have 3, as `t` does",
+        "r.csv: column `x`: the column has 2 values, but it must have 3, as `t` does",
     );
     refused(
         "[{\"t\": 0}, 3]",
-        "r.csv:2: neither a record nor a row of the JSON",
+        "r.csv:2: this is neither a record nor a row of the JSON",
     );
     let at = |header_line, segment, names: &[&str]| Options {
         header_line,
@@ -94,7 +94,7 @@ fn json_without_one_table_is_refused() {
         ),
         (
             at(None, Some(1), &[]),
-            "--segment 1: the file is not text and has no segments",
+            "--segment 1: the file is not text, so it has no segments",
         ),
         (
             at(None, None, &["t", "x", "f"]),

@@ -61,30 +61,33 @@ fn a_file_that_cannot_be_opened_is_named() {
         format!("{}: no such file", missing.display())
     );
     let error = read(folder.path(), &Options::default()).unwrap_err();
-    let line = format!("{}: is a folder; give a CSV file", folder.path().display());
+    let line = format!(
+        "{}: this is a folder; give a CSV file",
+        folder.path().display()
+    );
     assert_eq!(error.to_string(), line);
 }
 
 #[test]
 fn a_file_without_a_record_is_refused() {
-    let header = "a header with column names is missing";
-    refused("", &format!("r.csv:1: the file is empty; {header}"));
+    let header = "but a header with column names is needed";
+    refused("", &format!("r.csv:1: the file is empty, {header}"));
     refused(
         "\u{feff}\r\n \n",
-        &format!("r.csv:1: the file is blank; {header}"),
+        &format!("r.csv:1: the file is blank, {header}"),
     );
     let short = "the minimum is 200";
     refused(
         "t,x,f\n",
-        &format!("r.csv:1: too short: 0 samples; {short}"),
+        &format!("r.csv:1: the record is too short: 0 samples; {short}"),
     );
     refused(
         "t,x,f\n0,1,2\n",
-        &format!("r.csv:2: too short: 1 sample; {short}"),
+        &format!("r.csv:2: the record is too short: 1 sample; {short}"),
     );
     refused(
         "t,x,f\n0,1,2\n1,2,3\n2,5,4\n",
-        &format!("r.csv:4: too short: 3 samples; {short}"),
+        &format!("r.csv:4: the record is too short: 3 samples; {short}"),
     );
 }
 
@@ -92,7 +95,7 @@ fn a_file_without_a_record_is_refused() {
 fn a_file_that_is_not_text_is_refused() {
     refused(
         b"t,x,f\n0,1,2\n\x00\x01",
-        "r.csv:3: byte 12 is NUL: a binary file; give CSV text",
+        "r.csv:3: byte 12 is NUL, so the file is binary; give CSV text",
     );
     refused(
         b"t,x,f\n0,1\xb5,2\n",
@@ -100,11 +103,11 @@ fn a_file_that_is_not_text_is_refused() {
     );
     refused(
         [b"\xc2\xb5,x,f\n0,1\xb5,2\n".as_slice()].concat(),
-        "r.csv:2: byte 10 (0xB5) is not UTF-8, but characters before it are; save the file as UTF-8",
+        "r.csv:2: byte 10 (0xB5) is not UTF-8, unlike earlier characters; save the file as UTF-8",
     );
     refused(
         b"t,x,f\n0,1\xb5\x02,2\n",
-        "r.csv:2: byte 10 (0x02) is not valid in UTF-8 or Windows-1252; save the file as UTF-8",
+        "r.csv:2: byte 10 (0x02) is invalid in UTF-8 and in Windows-1252; save the file as UTF-8",
     );
     refused(
         b"\xff\xfet\0,\0x\0,\0f\0\n\x000\0,\0a\0,\x001\0",
@@ -114,26 +117,24 @@ fn a_file_that_is_not_text_is_refused() {
 
 #[test]
 fn a_header_that_is_none_is_refused() {
-    let header = "a header with column names is missing";
+    let header = "but a header with column names is needed";
     refused(
         ",,\n1,2,3\n",
-        &format!("r.csv:1: the line has no names; {header}"),
+        &format!("r.csv:1: the line has no names, {header}"),
     );
     refused(
         rows().join("\n"),
-        &format!(
-            "r.csv:1: the line holds numbers; {header}; --names t,x,f names the columns of a file without a header"
-        ),
+        "r.csv:1: the line contains numbers, but it must be a header with column names; for a file without a header, use --names t,x,f",
     );
     let wide: Vec<String> = rows().iter().map(|row| format!("{row},1")).collect();
     refused(
         csv("t,x [mm],x [mm],f", &wide),
-        "r.csv:1: column `x`: named twice, as columns 2 and 3; --names A,B,… gives each column a name of its own",
+        "r.csv:1: column `x`: named twice, as columns 2 and 3; --names A,B,… gives each column its own name",
     );
     // Where a name is missing, twins of another name do not matter.
     refused(
         csv("t,x,off,off", &wide),
-        "r.csv:1: column `f`: no such column among `t`, `x`, `off`; --output COL selects another one",
+        "r.csv:1: column `f`: no such column; the columns are `t`, `x`, `off`; --output COL selects another one",
     );
     refused(
         csv("time,time,off,off", &wide),
@@ -141,7 +142,7 @@ fn a_header_that_is_none_is_refused() {
     );
     refused(
         csv("t,x,f,load,load", &rows()),
-        "r.csv:1: column `load`: named twice, as columns 4 and 5; --names A,B,… gives each column a name of its own",
+        "r.csv:1: column `load`: named twice, as columns 4 and 5; --names A,B,… gives each column its own name",
     );
 }
 
@@ -149,12 +150,12 @@ fn a_header_that_is_none_is_refused() {
 fn a_missing_column_is_named_with_those_that_exist() {
     refused(
         csv("tim,x,f", &rows()),
-        "r.csv:1: column `t`: no such column among `tim`, `x`, `f` (nearest: `tim`); \
+        "r.csv:1: column `t`: no such column; the columns are `tim`, `x`, `f` (nearest: `tim`); \
          --time COL selects another one; --rate HZ computes the time from the row number",
     );
     refused(
         csv("t,tau_i,torque", &rows()),
-        "r.csv:1: column `tau_o`: no such column among `t`, `tau_i`, `torque` (nearest: `tau_i`); \
+        "r.csv:1: column `tau_o`: no such column; the columns are `t`, `tau_i`, `torque` (nearest: `tau_i`); \
          --output COL selects another one",
     );
     let options = Options {
@@ -163,7 +164,7 @@ fn a_missing_column_is_named_with_those_that_exist() {
     };
     assert_eq!(
         refusal(csv("t,x,f", &rows()), &options),
-        "r.csv:1: column `q`: no such column among `t`, `x`, `f`; \
+        "r.csv:1: column `q`: no such column; the columns are `t`, `x`, `f`; \
          --channel NAME=COL selects another one"
     );
     refused(
@@ -202,7 +203,7 @@ fn one_column_has_one_part() {
             mode,
             ..Options::default()
         },
-        "r.csv:1: column `x`: cannot be both input and output",
+        "r.csv:1: column `x`: this column cannot be both input and output",
     );
     refuses(
         Options {
@@ -210,7 +211,7 @@ fn one_column_has_one_part() {
             mode,
             ..Options::default()
         },
-        "r.csv:1: column `t`: is the time and cannot also be input or output",
+        "r.csv:1: column `t`: this column is the time, so it cannot also be input or output",
     );
     let channels = |pairs: &[(&str, &str)]| Options {
         channels: pairs
@@ -221,7 +222,7 @@ fn one_column_has_one_part() {
     };
     refuses(
         channels(&[("load", "f")]),
-        "r.csv:1: column `f`: is the output and cannot also be channel `load`",
+        "r.csv:1: column `f`: this column is the output, so it cannot also be channel `load`",
     );
     refuses(
         channels(&[("a", "t"), ("a", "x")]),
@@ -242,7 +243,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     let drop = "--drop-bad drops such rows";
     refuses(
         "",
-        &format!("the cell is empty, but must be a number; {drop}"),
+        &format!("the cell is empty, but it must be a number; {drop}"),
     );
     refuses("abc", "`abc` is not a number");
     refuses("NaN", &format!("`NaN` is not a finite number; {drop}"));
@@ -259,7 +260,7 @@ fn a_cell_that_is_no_measured_number_is_shown() {
     );
     refused(
         with_line(9, "0.07,1,"),
-        &format!("r.csv:9: column `f`: the cell is empty, but must be a number; {drop}"),
+        &format!("r.csv:9: column `f`: the cell is empty, but it must be a number; {drop}"),
     );
     refused(
         with_line(9, "x,1,2"),
@@ -277,19 +278,19 @@ fn a_cell_that_is_no_measured_number_is_shown() {
 fn a_row_that_does_not_fit_the_header_is_refused() {
     refused(
         with_line(57, "0.55,3"),
-        "r.csv:57: 2 cells, but the header has 3",
+        "r.csv:57: the row has 2 cells, but the header has 3",
     );
     refused(
         with_line(57, "0.55,3,4,5"),
-        "r.csv:57: 4 cells, but the header has 3",
+        "r.csv:57: the row has 4 cells, but the header has 3",
     );
     refused(
         with_line(57, ""),
-        "r.csv:57: the line is blank, but rows follow it",
+        "r.csv:57: the line is blank, although rows follow",
     );
     refused(
         with_line(57, &"1".repeat(5_000_000)),
-        "r.csv:57: the line has 5000000 bytes; at most 65536 are read",
+        "r.csv:57: the line has 5000000 bytes, but at most 65536 are allowed",
     );
 }
 
@@ -335,14 +336,11 @@ fn a_quote_that_stays_open_is_refused() {
     );
     let mut long = with_line(57, "0.55,\"1,2");
     long += &"4.00,1,2\n".repeat(100_000);
-    refused(
-        long,
-        "r.csv:57: a quote is not closed, or not within 65536 bytes",
-    );
+    refused(long, "r.csv:57: a quote is not closed within 65536 bytes");
     // Closed by the next stray quote.
     refused(
         with_line(57, "0.55,\"1,2\n0.56,3,4\""),
-        "r.csv:57: 2 cells, but the header has 3; a quote extends the row to line 58",
+        "r.csv:57: the row has 2 cells, but the header has 3; a quote extends the row to line 58",
     );
     refused(
         with_line(57, "0.55,\"1,2\n0.56,\"3,4"),

@@ -26,7 +26,7 @@ fn same(text: &str, options: &Options, notes: &[&str]) -> Record {
     record
 }
 
-const BLANKS: &str = "blanks separate the columns";
+const BLANKS: &str = "columns are separated by blanks";
 
 #[test]
 fn blanks_may_separate_the_columns() {
@@ -48,7 +48,7 @@ fn blanks_may_separate_the_columns() {
     );
     refused(
         single.replacen("\n0.20 ", "\n", 1),
-        "r.csv:22: 2 cells, but the header has 3",
+        "r.csv:22: the row has 2 cells, but the header has 3",
     );
 }
 
@@ -62,7 +62,7 @@ fn names_can_be_given_to_a_text_without_them() {
     same(&lines.replace(',', "\t"), &named(&[t, x, f]), &[]);
     same(&lines.replace(',', "  "), &named(&[t, x, f]), &[BLANKS]);
     let comma = lines.replace(',', ";").replace('.', ",");
-    let decimal = "numbers have a decimal comma";
+    let decimal = "decimal commas were read";
     same(&comma, &named(&[t, x, f]), &[decimal]);
     let preamble = format!("% made by a rig\n% on a day\n{lines}");
     let above = "lines 1–2 above the values ignored";
@@ -78,15 +78,15 @@ fn names_that_do_not_fit_are_refused() {
     let lines = rows().join("\n");
     assert_eq!(
         refusal(&lines, &Options::default()),
-        "r.csv:1: the line holds numbers; a header with column names is missing; --names t,x,f names the columns of a file without a header"
+        "r.csv:1: the line contains numbers, but it must be a header with column names; for a file without a header, use --names t,x,f"
     );
     assert_eq!(
         refusal(&lines, &named(&["t", "x"])),
-        "r.csv:1: 3 cells, but --names lists 2"
+        "r.csv:1: the row has 3 cells, but --names lists 2"
     );
     assert_eq!(
         refusal(&lines, &named(&["t", "x", "x"])),
-        "r.csv:1: column `f`: no such column among `t`, `x`; --output COL selects another one"
+        "r.csv:1: column `f`: no such column; the columns are `t`, `x`; --output COL selects another one"
     );
     assert_eq!(
         refusal("only\nwords\n", &named(&["t", "x", "f"])),
@@ -98,7 +98,7 @@ fn names_that_do_not_fit_are_refused() {
     };
     assert_eq!(
         refusal(&lines, &both),
-        "r.csv: --names is for a file without names, and --header-line is for a file with names"
+        "r.csv: --names and --header-line cannot be combined: --names is for a file without column names"
     );
 }
 
@@ -123,14 +123,14 @@ fn one_name_with_two_units_is_two_columns() {
     assert_eq!(record.output.unit.as_deref(), Some("N"));
     assert_eq!(
         refusal(&text, &ends("Way (mm)", "Force")),
-        "r.csv:1: column `Force`: no such column among `t`, `Way (V)`, `Way (mm)`, `Force (V)`, \
+        "r.csv:1: column `Force`: no such column; the columns are `t`, `Way (V)`, `Way (mm)`, `Force (V)`, \
          `Force (N)` (nearest: `Force (V)`, `Force (N)`); --output COL selects another one"
     );
     // One of three is the other's twin: neither of these two can be wanted.
     let twins = text.replacen("Force (V)", "Force (N)", 1);
     assert_eq!(
         refusal(&twins, &ends("Way (mm)", "Force (N)")),
-        "r.csv:1: column `Force`: named twice, as columns 4 and 5; --names A,B,… gives each column a name of its own"
+        "r.csv:1: column `Force`: named twice, as columns 4 and 5; --names A,B,… gives each column its own name"
     );
 }
 
@@ -138,7 +138,7 @@ fn one_name_with_two_units_is_two_columns() {
 fn a_file_that_ends_within_a_line_loses_that_line() {
     let whole = csv("t,x,f", &rows());
     let cut = |text: &str| format!("{whole}{text}");
-    let note = "line 402, the last one, dropped: it is truncated";
+    let note = "the last line, 402, is truncated and was dropped";
     for end in ["4.00,1.5", "4.00,1.5,", "4.00,1.5,-", "4.00,1.5,2.e", "4"] {
         same(&cut(end), &Options::default(), &[note]);
         // A line that ends is whole, and something else is wrong with it.
@@ -156,6 +156,6 @@ fn a_file_that_ends_within_a_line_loses_that_line() {
     // The last line may lack its end, and none above it.
     refused(
         whole.replacen("\n0.20,", "\n", 1) + "4.0",
-        "r.csv:22: 2 cells, but the header has 3",
+        "r.csv:22: the row has 2 cells, but the header has 3",
     );
 }

@@ -8,7 +8,7 @@ fn a_time_that_restarts_below_the_names_is_refused_as_two_records() {
     let once = csv("t,x,f", &rows());
     refused(
         [once.as_str(), &once].concat(),
-        "r.csv:402: column `t`: two records: the column names are repeated and the time restarts, from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
+        "r.csv:402: column `t`: the file contains two records: the column names are repeated, and the time restarts from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
     );
     let line = refusal([once.as_str(), &once, &once].concat(), &Options::default());
     assert!(
@@ -22,7 +22,7 @@ fn a_time_that_restarts_below_the_names_is_refused_as_two_records() {
     );
     assert_eq!(
         line,
-        "r.csv:402: column `t`: time runs backwards, from 3.99 to 0 s"
+        "r.csv:402: column `t`: the time decreases from 3.99 to 0 s"
     );
     let rate = Options {
         rate: Some(100.0),
@@ -30,7 +30,7 @@ fn a_time_that_restarts_below_the_names_is_refused_as_two_records() {
     };
     assert_eq!(
         refusal([once.as_str(), &once].concat(), &rate),
-        "r.csv:402: the column names are repeated: without a time column bowden cannot tell whether the record continues; --segment N reads one of 2 segments (segment 2 begins here)"
+        "r.csv:402: the column names are repeated, and without a time column bowden cannot tell whether the record continues; --segment N reads one of 2 segments (segment 2 begins here)"
     );
 }
 
@@ -49,7 +49,7 @@ fn a_segment_that_is_not_there_or_not_alike_is_refused() {
         );
     }
     let other = [once.as_str(), &csv("t,x,f\ns,in,N", &rows())].concat();
-    let message = "r.csv:402: the column names are repeated, but the lines below them differ from those below the first ones; put the records into separate files";
+    let message = "r.csv:402: the column names are repeated, but the lines below them differ from the lines below the first names; write the records to separate files";
     refused(&other, message);
     assert_eq!(refusal(&other, &at(2)), message);
     assert!(bowden_lab::record::parse(other.as_bytes(), "r.csv", &at(1)).is_ok());
@@ -61,6 +61,6 @@ fn a_segment_that_is_not_there_or_not_alike_is_refused() {
     );
     refused(
         once.clone() + "End\n" + &once,
-        "r.csv:403: column `t`: two records: the column names are repeated and the time restarts, from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
+        "r.csv:403: column `t`: the file contains two records: the column names are repeated, and the time restarts from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
     );
 }

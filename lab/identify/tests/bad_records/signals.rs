@@ -6,7 +6,7 @@ use super::*;
 fn time_that_does_not_run_forward_is_refused() {
     refused(
         with_line(57, "0.53,1,2"),
-        "r.csv:57: column `t`: time runs backwards, from 0.54 to 0.53 s",
+        "r.csv:57: column `t`: the time decreases from 0.54 to 0.53 s",
     );
     refused(
         with_line(57, "0.54,1,2"),
@@ -16,8 +16,8 @@ fn time_that_does_not_run_forward_is_refused() {
     let rounded = with_time("t,x,f", |i| format!("{:.2}", i as f64 / 128.0));
     refused(
         &rounded,
-        "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows: \
-         the stamps appear to be rounded; --rate HZ computes the time from the row number (about 127.9 Hz); --drop-bad drops such rows",
+        "r.csv:5: column `t`: the time stamp repeats at 0.02, as in 87 of 400 rows, \
+         so the stamps appear to be rounded; --rate HZ computes the time from the row number (about 127.9 Hz); --drop-bad drops such rows",
     );
     let options = Options {
         rate: Some(128.0),
@@ -46,15 +46,15 @@ fn options_that_cannot_be_followed_are_refused() {
     };
     refuses(
         rate(0.0),
-        "r.csv: --rate 0 is out of range; it must be above 0 Hz",
+        "r.csv: --rate 0 is out of range; it must be positive",
     );
     refuses(
         rate(-5.0),
-        "r.csv: --rate -5 is out of range; it must be above 0 Hz",
+        "r.csv: --rate -5 is out of range; it must be positive",
     );
     refuses(
         rate(f64::NAN),
-        "r.csv: --rate NaN is out of range; it must be above 0 Hz",
+        "r.csv: --rate NaN is out of range; it must be positive",
     );
     let cut = |skip: f64, until: Option<f64>| Options {
         skip,
@@ -79,14 +79,14 @@ fn options_that_cannot_be_followed_are_refused() {
     );
     refuses(
         cut(3.0, None),
-        "r.csv:401: too short: 100 samples of 400 are left after cutting; \
+        "r.csv:401: the record is too short: 100 samples of 400 remain after cutting; \
          the minimum is 200",
     );
 }
 
 #[test]
 fn an_end_that_stands_still_is_refused() {
-    let still = "in every sample, but it must move";
+    let still = "in every sample, but it must vary";
     refused(
         of(|_| 2.5, f64::sin),
         &format!("r.csv:2: column `x`: the input is 2.5 {still}"),
@@ -102,7 +102,7 @@ fn an_end_that_stands_still_is_refused() {
 fn an_output_that_is_the_input_is_refused() {
     refused(
         of(f64::sin, f64::sin),
-        "r.csv:2: column `f`: the output equals the input `x` in every sample: it must be the resulting force or torque",
+        "r.csv:2: column `f`: the output equals the input `x` in every sample, but it must be the resulting force or torque",
     );
 }
 

@@ -29,7 +29,7 @@ fn a_slow_channel_is_a_line_through_its_readings() {
                 let expected = 20.0 + 0.5 * (i.clamp(3, 383) as f64);
                 assert!((value - expected).abs() < 1e-9, "{i}: {value}");
             }
-            let said = "`temperature` has no number in 380 of 400 rows, and 20 readings, one in 0.200 s: interpolated linearly";
+            let said = "`temperature` has no number in 380 of 400 rows; its 20 readings, one every 0.200 s, were interpolated linearly";
             assert!(
                 record.notes.iter().any(|note| note == said),
                 "{:?}",
@@ -50,7 +50,7 @@ fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
     };
     refused(
         gap(","),
-        "r.csv:32: column `temperature`: the cell is empty, but must be a number; --drop-bad drops such rows",
+        "r.csv:32: column `temperature`: the cell is empty, but it must be a number; --drop-bad drops such rows",
     );
     let options = Options {
         drop_bad: true,
@@ -64,7 +64,7 @@ fn cells_that_lack_in_a_channel_that_is_mostly_there_are_faults() {
     assert!(later.contains("abc"));
     refused(
         later,
-        "r.csv:32: column `temperature`: the cell is empty, but must be a number; --drop-bad drops such rows",
+        "r.csv:32: column `temperature`: the cell is empty, but it must be a number; --drop-bad drops such rows",
     );
 }
 
@@ -89,7 +89,7 @@ fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
     let few = with_temperature(0, 4, "").replacen("f,temperature", "load,f", 1);
     refused(
         few,
-        "r.csv:401: too short: 100 samples of 400 are left at the stamps of the column with the fewest numbers; the minimum is 200",
+        "r.csv:401: the record is too short: 100 samples of 400 remain at the stamps of the column with the fewest numbers; the minimum is 200",
     );
     let none = csv(
         "t,x,f,temperature",
@@ -100,7 +100,7 @@ fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
     );
     let record = accepted(&none);
     assert!(record.channels.is_empty());
-    let said = "`temperature` has no number in any row: excluded";
+    let said = "`temperature` has no number in any row and was excluded";
     assert!(record.notes.iter().any(|note| note == said));
     // What was asked for has to be there.
     let options = Options {
@@ -109,6 +109,6 @@ fn what_is_no_number_and_an_end_with_few_numbers_are_refused() {
     };
     assert_eq!(
         refusal(none, &options),
-        "r.csv:1: column `temperature`: has no number in any row of the record"
+        "r.csv:1: column `temperature`: there is no number in any row of the record"
     );
 }

@@ -59,7 +59,7 @@ fn a_word_below_the_time_that_is_no_unit_of_time_is_refused() {
             refused(
                 with_row(above, &format!("{word};Nm;Nm")),
                 &format!(
-                    "r.csv:{line}: column `t`: unit `{word}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time 't [ms]'"
+                    "r.csv:{line}: column `t`: `{word}` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or with --time 't [ms]'"
                 ),
             );
         }
@@ -101,7 +101,7 @@ fn spellings_of_one_unit_are_one_and_newton_millimetres_convert() {
     let mut both = [of("N·m"), of("wide")];
     let line = agree(&mut both).unwrap_err().to_string();
     assert!(
-        line.contains("has unit wide; it must have unit N·m"),
+        line.contains("has unit wide, but it must have unit N·m"),
         "{line}"
     );
 }
@@ -113,7 +113,7 @@ fn the_unit_of_time_is_converted() {
     assert_eq!(record.notes, ["time converted from ms to s"]);
     refused(
         csv("t [V],x,f", &rows()),
-        "r.csv:1: column `t`: unit `V` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or as in --time 't [ms]'",
+        "r.csv:1: column `t`: `V` is not a unit of time; allowed are s, ms, us, ns, min, h and d, in the file or with --time 't [ms]'",
     );
 }
 
@@ -122,7 +122,7 @@ fn days_without_a_unit_are_not_taken_for_seconds() {
     let day = |i: usize| format!("{:.12}", 45_000.0 + i as f64 * 1e-3 / 86_400.0);
     refused(
         with_time("t,x,f", day),
-        "r.csv:1: column `t`: no unit is stated; if it is s, there are 8.640e7 rows per second: set --time 't [d]' for days, 't [h]' for hours, or 't [s]'",
+        "r.csv:1: column `t`: the time has no unit, and in s there would be 8.640e7 rows per second; set --time 't [d]' for days, 't [h]' for hours, or 't [s]'",
     );
     let record = accepted(with_time("t [d],x,f", day));
     // A day's twelfth digit is a tenth of a microsecond.

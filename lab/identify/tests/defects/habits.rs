@@ -145,7 +145,7 @@ fn normal(row: usize) -> f64 {
 fn noise_of_an_input_at_rest_is_given_no_name() {
     let said = |data: &Prepared| {
         let mut notes = data.notes.iter();
-        notes.any(|note| note.contains("the input moves by no more than its noise for "))
+        notes.any(|note| note.contains("s in total, the input moves by no more than its noise"))
     };
     let (data, quiet) = closed(&rested(0.0));
     assert!(!said(&data), "{:?}", data.notes);

@@ -145,6 +145,6 @@ fn cells_of_json_are_those_of_a_text() {
     assert_eq!(record.samples(), 399);
     assert_eq!(
         record.notes,
-        ["line 400, the last one, dropped: it is truncated"]
+        ["the last line, 400, is truncated and was dropped"]
     );
 }

@@ -265,7 +265,7 @@ fn an_angle_in_degrees_is_unwrapped_before_it_is_converted() {
     assert_eq!(
         record.notes,
         [
-            "`phi_p` wraps around at 360 once: unwrapped",
+            "`phi_p` wraps around at 360 once and was unwrapped",
             "`phi_p` converted from deg to rad, the angle unit of the effects `gravity` and `ripple`"
         ]
     );

@@ -59,7 +59,7 @@ fn pairs_of_time_and_value_are_read_by_the_rate_or_by_given_names() {
         .to_string();
     assert_eq!(
         line,
-        "r.csv:2: column `Channel`: named twice, as columns 1 and 3; --names A,B,… gives each column a name of its own"
+        "r.csv:2: column `Channel`: named twice, as columns 1 and 3; --names A,B,… gives each column its own name"
     );
 }
 

@@ -174,13 +174,13 @@ fn a_lone_array_has_columns_by_names_or_by_fields() {
     assert_eq!(read(&matrix, &by_number).unwrap().output.values, column(2));
     let plain = |shape: &str| npy("'<f8'", shape, false, &doubles(&by_row));
     for (bytes, options, says) in [
-        (plain("(1200,)"), Options::default(), "is one column of 1200 numbers; save a two-dimensional array, or name the columns with `np.savez`"),
-        (plain("(20, 20, 3)"), Options::default(), "is an array with 3 dimensions; it must have two, with one column per quantity"),
-        (plain("()"), Options::default(), "is an array with 0 dimensions; it must have two, with one column per quantity"),
-        (npy("'|O'", "(400, 3)", false, &[]), Options::default(), "is an array of other values than real numbers"),
+        (plain("(1200,)"), Options::default(), "the array is one column of 1200 numbers; save a two-dimensional array, or name the columns with `np.savez`"),
+        (plain("(20, 20, 3)"), Options::default(), "the array has 3 dimensions, but it must have two, with one column per quantity"),
+        (plain("()"), Options::default(), "the array has 0 dimensions, but it must have two, with one column per quantity"),
+        (npy("'|O'", "(400, 3)", false, &[]), Options::default(), "the array does not contain real numbers"),
         (matrix.clone(), names("t,x"), "the array has 3 columns, but --names lists 2"),
-        (structured, names("t,x,f"), "--names: the fields of the array have names already"),
-        (matrix[..2000].to_vec(), Options::default(), "the file is damaged: an array ends early"),
+        (structured, names("t,x,f"), "--names: the fields of the array already have names"),
+        (matrix[..2000].to_vec(), Options::default(), "the file is damaged: an array is truncated"),
     ] {
         let line = read(&bytes, &options).unwrap_err().to_string();
         assert_eq!(line, format!("r.npy: {says}"));
@@ -207,7 +207,7 @@ fn damage_to_an_archive_is_refused() {
     spoilt[2000] ^= 1;
     assert_eq!(
         refusal(&spoilt),
-        "r.npz: the file is damaged: a check sum is wrong"
+        "r.npz: the file is damaged: a checksum is wrong"
     );
     let short = zip(
         &[("t.npy", npy("'<f8'", "(500,)", false, &doubles(&column(0))))],
@@ -215,7 +215,7 @@ fn damage_to_an_archive_is_refused() {
     );
     assert_eq!(
         refusal(&short),
-        "r.npz: the file is damaged: an array ends early"
+        "r.npz: the file is damaged: an array is truncated"
     );
     // Any byte of any value: a refusal or a record, and no panic.
     for at in (0..whole.len()).step_by(7) {

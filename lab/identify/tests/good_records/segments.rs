@@ -48,7 +48,7 @@ fn names_that_come_again_while_the_time_goes_on_leave_one_record() {
             .filter(|(_, line)| *line == head.1.trim());
         let second = names.map(|(index, _)| index + 1).nth(1).unwrap();
         let said = format!(
-            "the column names are repeated, first in line {second}: 4 segments, read as one record"
+            "the column names are repeated, first in line {second}; 4 segments were read as one record"
         );
         assert!(record.notes.contains(&said), "{:?}", record.notes);
     }
@@ -80,7 +80,10 @@ fn a_segment_is_read_by_its_number() {
         let line = parse(text.as_bytes(), "r.csv", &short)
             .unwrap_err()
             .to_string();
-        assert!(line.contains("too short: 100 samples"), "{line}");
+        assert!(
+            line.contains("the record is too short: 100 samples"),
+            "{line}"
+        );
     }
     let whole = |shift: f64| {
         let row = |(i, row): (usize, String)| {

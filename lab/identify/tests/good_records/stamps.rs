@@ -43,11 +43,11 @@ fn read(text: &str, drop_bad: bool) -> Record {
 #[test]
 fn each_column_is_read_at_its_own_stamps() {
     for (step, later, other, note) in [
-        (10, 3, 10, "`f` and `x` have separate time stamps (800 and 800 readings): `x` interpolated linearly at the stamps of `f`"),
-        (20, 3, 10, "`x` and `f` have separate time stamps (400 and 800 readings): `f` interpolated linearly at the stamps of `x`"),
+        (10, 3, 10, "`f` and `x` have separate time stamps (800 and 800 readings); `x` was interpolated linearly at the stamps of `f`"),
+        (20, 3, 10, "`x` and `f` have separate time stamps (400 and 800 readings); `f` was interpolated linearly at the stamps of `x`"),
         // Some or all stamps are those of both, in rows of their own.
-        (10, 0, 15, "`f` and `x` have separate time stamps (534 and 800 readings): `x` interpolated linearly at the stamps of `f`"),
-        (10, 0, 10, "`f` and `x` have separate time stamps (800 and 800 readings): `x` interpolated linearly at the stamps of `f`"),
+        (10, 0, 15, "`f` and `x` have separate time stamps (534 and 800 readings); `x` was interpolated linearly at the stamps of `f`"),
+        (10, 0, 10, "`f` and `x` have separate time stamps (800 and 800 readings); `x` was interpolated linearly at the stamps of `f`"),
     ] {
         let text = merged(step, later, other);
         for drop_bad in [false, true] {
@@ -109,7 +109,7 @@ fn the_rows_of_such_columns_may_be_in_any_order() {
     let line = parse(text.as_bytes(), "r.csv", &Options::default())
         .unwrap_err()
         .to_string();
-    assert!(line.contains("time runs backwards"), "{line}");
+    assert!(line.contains("the time decreases"), "{line}");
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn an_end_with_a_number_in_few_rows_is_read_at_its_stamps() {
     let record = read(&text, false);
     assert_eq!(
         record.notes,
-        ["`x` and `f` have separate time stamps (400 and 4000 readings): `f` interpolated linearly at the stamps of `x`"]
+        ["`x` and `f` have separate time stamps (400 and 4000 readings); `f` was interpolated linearly at the stamps of `x`"]
     );
     for (i, t) in record.time.iter().enumerate() {
         // What was there is as it was, with six decimals.
@@ -158,7 +158,7 @@ fn rows_with_both_numbers_and_a_few_without_one_are_a_record_with_gaps() {
         .to_string();
     assert_eq!(
         line,
-        "r.csv:2: column `f`: the cell is empty, but must be a number; --drop-bad drops such rows"
+        "r.csv:2: column `f`: the cell is empty, but it must be a number; --drop-bad drops such rows"
     );
     assert_eq!(read(&text, true).samples(), 200);
 }

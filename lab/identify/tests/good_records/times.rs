@@ -127,12 +127,19 @@ fn comments_among_the_rows_are_passed_over() {
         let record = accepted(with(comment));
         assert_eq!(record.time, plain.time, "{comment}");
         assert_eq!(record.output.values, plain.output.values, "{comment}");
-        assert_eq!(record.notes, ["line 22 ignored: a comment"], "{comment}");
+        assert_eq!(
+            record.notes,
+            ["line 22 ignored because it is a comment"],
+            "{comment}"
+        );
         let blanks = with(&comment.replace(',', " ")).replace(',', " ");
         assert_eq!(accepted(blanks).time, plain.time, "{comment}");
     }
     let record = accepted(with("# one\n# two words more"));
-    assert_eq!(record.notes, ["2 lines ignored, from line 22 on: comments"]);
+    assert_eq!(
+        record.notes,
+        ["2 comment lines ignored, the first one in line 22"]
+    );
     // Comments above the units, and between the first rows below a preamble.
     for (head, notes) in [
         ("t,x,f\n# in the lab\ns,mm,N", &["units from line 3"][..]),
@@ -141,7 +148,7 @@ fn comments_among_the_rows_are_passed_over() {
             &[
                 "line 1 above the names ignored",
                 "units from line 4",
-                "line 3 between names and values: ignored",
+                "line 3 between names and values ignored",
             ],
         ),
         ("Rig 4\nt,x,f", &["line 1 above the names ignored"]),
@@ -151,7 +158,7 @@ fn comments_among_the_rows_are_passed_over() {
         assert_eq!(record.time, plain.time, "{head}");
         assert_eq!(record.notes[..notes.len()], *notes, "{head}");
         assert!(
-            record.notes[notes.len()].contains("ignored: a comment"),
+            record.notes[notes.len()].contains("ignored because it is a comment"),
             "{:?}",
             record.notes
         );
@@ -191,7 +198,7 @@ fn minutes_and_seconds_are_time_stamps() {
     let line = parse(wrapped.as_bytes(), "r.csv", &Options::default()).unwrap_err();
     assert_eq!(
         line.to_string(),
-        "r.csv:303: column `t`: time runs backwards, from 89.9 to 0 s; does the record pass a full hour? Then write the hours too, as in 01:59:50.2"
+        "r.csv:303: column `t`: the time decreases from 89.9 to 0 s; if the record passes a full hour, write the hours too, as in 01:59:50.2"
     );
 }
 
@@ -218,7 +225,10 @@ fn a_time_with_a_mark_before_its_name_is_read() {
     for record in [accepted(&text), timed(&text, "%time")] {
         // A double counts nanoseconds since 1970 by 256.
         assert!((record.time[399] - 3.99).abs() < 1e-6);
-        assert_eq!(record.notes, ["time stamps are in ns: ROS writes `%time`"]);
+        assert_eq!(
+            record.notes,
+            ["time stamps are in ns, as ROS writes them to `%time`"]
+        );
     }
     // Under another name the unit is asked for.
     let line = parse(

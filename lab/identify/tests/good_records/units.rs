@@ -64,8 +64,8 @@ fn a_word_that_is_no_known_unit_is_kept_with_a_note() {
         record.notes,
         [
             "units from line 2",
-            "unit `wide` of `x` is unknown: kept as it is",
-            "unit `N·x` of `f` is unknown: kept as it is"
+            "unit `wide` of `x` is unknown and was kept",
+            "unit `N·x` of `f` is unknown and was kept"
         ]
     );
     // Two units at once are none.

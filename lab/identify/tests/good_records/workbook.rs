@@ -171,7 +171,7 @@ fn an_error_of_a_sheet_counts_as_an_empty_cell() {
     assert_eq!(lines[0], lines[1]);
     assert_eq!(
         lines[0],
-        "r.xlsx:9: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows"
+        "r.xlsx:9: column `x`: the cell is empty, but it must be a number; --drop-bad drops such rows"
     );
 }
 
@@ -196,7 +196,7 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
     ];
     assert_eq!(
         read(&all, None).unwrap(),
-        ["sheet `Run 1` read; `--sheet` reads another one with a table: `Other`, `Run 2`"]
+        ["sheet `Run 1` read; --sheet selects another sheet with a table: `Other`, `Run 2`"]
     );
     assert!(read(&all, Some("Run 2")).unwrap().is_empty());
     assert!(read(&[all[0], all[2]], None).unwrap().is_empty());
@@ -208,7 +208,7 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
     );
     assert_eq!(
         refusal(&[("Notes", words)], None),
-        "r.xlsx: no sheet has a table: two or more columns of numbers below their names"
+        "r.xlsx: no sheet contains a table, which is two or more columns of numbers below their names"
     );
     assert_eq!(
         refusal(&[("Run", &own), ("Empty", "")], Some("Empty")),
@@ -249,7 +249,7 @@ fn damage_to_a_workbook_is_refused() {
     let wide = format!("t,x,f\n\n{}1", ",".repeat(256));
     assert_eq!(
         refusal(&workbook(&[("S", &wide)])),
-        "r.xlsx: row 3 of sheet `S` has a cell in column 257; a sheet may have at most 256 columns"
+        "r.xlsx: row 3 of sheet `S` has a cell in column 257, but a sheet may have at most 256 columns"
     );
     // Any byte of any value: a refusal or a record, and no panic.
     for at in (0..whole.len()).step_by(97) {

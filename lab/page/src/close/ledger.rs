@@ -70,7 +70,7 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
         rows.push(label("exported (--invertible)", facts, &exported.rmse));
     }
     let caption = format!(
-        "Errors{}: root mean square of the filtered output's residual",
+        "Errors{}: RMS residual of the filtered output",
         in_brackets(unit)
     );
     let head = [
@@ -87,13 +87,13 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
         p { "Baseline: " (facts.declared.effects.join(", ")) "." }
         div class="errors" { (table(&caption, &head, 2..7, &rows)) }
         p class="note" {
-            "Removes: share of the squared error on the fit segment that the term removes. vs noise: held-out error in multiples of the sensor's noise. Confidence concerns the name of the term, not its coefficient."
-            @if !facts.beyond.is_empty() { " In brackets: found, but not delivered." }
+            "Removes: share of the squared error on the fit segment that the term removes. Vs noise: held-out error in multiples of the sensor noise. Confidence refers to the choice of the term, not to its coefficient."
+            @if !facts.beyond.is_empty() { " In brackets: found, but not in the final model." }
             @if facts.rounds.iter().any(|r| r.raises_held_out) { " ↑: the term raises the held-out error." }
         }
         (names(facts))
         (parts(figures))
-        p class="note" { "The parts sum to the " (figures.signals.models[1].name) " model; parts that cancel may each be larger than the sum." }
+        p class="note" { "The sum of the parts is the " (figures.signals.models[1].name) " model. Parts that cancel may each be larger than the sum." }
         (turned_down(facts))
     }
 }
@@ -119,7 +119,13 @@ fn mechanisms(facts: &Facts) -> Markup {
         } }
     };
     let rows: Vec<Markup> = facts.lacks.iter().map(row).collect();
-    let head = ["", "confidence", "alone", "beyond the others", "terms"];
+    let head = [
+        "",
+        "confidence",
+        "by itself",
+        "added to the others",
+        "terms",
+    ];
     let charts = facts.lacks.iter().enumerate();
     let charts: Vec<Markup> = charts
         .filter_map(|(k, lack)| curve(facts, k, lack))
@@ -127,11 +133,11 @@ fn mechanisms(facts: &Facts) -> Markup {
     html! {
         (table("Missing mechanisms", &head, 2..4, &rows))
         p class="note" {
-            "Alone and beyond the others: shares of the baseline's squared error that the mechanism removes on halves of the record that it was not fitted to, with the quartiles over twenty halves."
+            "By itself, added to the others: share of the baseline's squared error that the mechanism removes on half of the record, after a fit to the other half. The brackets give the quartiles over twenty halves."
         }
         div class="grid-of" { @for chart in &charts { (chart) } }
         p class="note" {
-            "Contribution of each mechanism to the output, plus the residual of the model with all mechanisms. The 95 % intervals hold for the motion of this record."
+            "Each figure shows the contribution of the mechanism to the output, plus the residual of the model with all mechanisms. The 95 % intervals are valid for the motion of this record."
         }
         (files_alone(facts))
     }
@@ -160,7 +166,7 @@ fn files_alone(facts: &Facts) -> Markup {
     }
     html! {
         @if !facts.files_alone.is_empty() {
-            (table("Confidence of each mechanism in each file alone", &head, 0..0, &rows))
+            (table("Confidence of each mechanism in each single file", &head, 0..0, &rows))
         }
     }
 }
@@ -242,7 +248,7 @@ fn names(facts: &Facts) -> Markup {
     html! {
         (table(caption, &head, 2..5, &rows))
         p class="note" {
-            "p: probability of an improvement at least this large by chance alone, without the effect. Blocks improved: blocks on which the effect reduces the error."
+            "p: probability that chance alone gives an improvement at least this large. Blocks improved: blocks on which the effect reduces the error."
         }
     }
 }
@@ -282,7 +288,7 @@ fn turned_down(facts: &Facts) -> Markup {
         @if !facts.unneeded.is_empty() {
             h3 { "Redundant in the baseline model" }
             ul { @for part in &facts.unneeded {
-                li { (part.effect) ": held out " (number(part.held_out_without, Some(0.01 * part.held_out_without)))
+                li { (part.effect) ": held-out error " (number(part.held_out_without, Some(0.01 * part.held_out_without)))
                     " without it, " (number(part.held_out_with, Some(0.01 * part.held_out_with))) " with it"
                     @if part.removed { "; excluded from the final model" } }
             } }
@@ -298,11 +304,11 @@ fn turned_down(facts: &Facts) -> Markup {
 pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         @if figures.blocks.is_empty() {
-            p { "No effect was added, so there is nothing to compare block by block." }
+            p { "No effect was added, so there is no comparison block by block." }
         } @else {
             p {
-                "The fit segment in " (BLOCKS) " blocks of equal travel. Each bar is the share of the block's squared error "
-                "that the term removes; a negative bar means that the term adds error. A real effect reduces the error of almost every block."
+                "The fit segment is divided into " (BLOCKS) " blocks of equal travel. Each bar is the share of the block's squared error "
+                "that the term removes. A negative bar means that the term adds error. A real effect reduces the error of almost every block."
             }
         }
         div class="grid-of" {
@@ -323,7 +329,7 @@ pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
             }
         }
         @if !facts.rounds.is_empty() && facts.rounds.iter().all(|r| r.rivals.is_empty()) {
-            p { "No other effect in the catalogue explains as much as any of these terms." }
+            p { "No other effect in the catalogue explains as much as one of these terms." }
         }
     }
 }
@@ -349,7 +355,7 @@ fn block_chart(k: usize, round: &RoundFacts, removed: &[f64; BLOCKS]) -> Chart {
     };
     let better = removed.iter().filter(|s| **s > 0.0).count();
     let description = format!(
-        "{} removes squared error on {better} of {BLOCKS} blocks.",
+        "{} reduces the squared error on {better} of {BLOCKS} blocks.",
         round.title
     );
     let rivals: Vec<&str> = round.rivals.iter().map(|r| r.title.as_str()).collect();

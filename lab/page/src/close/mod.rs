@@ -117,7 +117,7 @@ fn numbers(facts: &Facts) -> Markup {
     html! {
         dl class="numbers" {
             div id="held-out" {
-                dt { "Error on held-out data (not used for the fit or the selection)" }
+                dt { "Error on held-out data (used neither for the fit nor for the selection)" }
                 dd { (pair(before.held_out, after.held_out)) }
             }
             div id="fitted" {
@@ -132,13 +132,13 @@ fn numbers(facts: &Facts) -> Markup {
             }
             @if let Some(floors) = floors {
                 div {
-                    dt { "Held-out error of the " (name) " model, in noise floors" }
+                    dt { "Held-out error of the " (name) " model, in multiples of the noise floor" }
                     dd { (format!("{floors:.1}")) }
                 }
             }
         }
         p class="note" {
-            "Baseline model → " (name) " model. Errors are root mean squares of the filtered output's residual, as a share of that output's standard deviation."
+            "Baseline model → " (name) " model. Each error is the RMS residual of the filtered output, relative to the standard deviation of this output."
         }
     }
 }

@@ -43,8 +43,8 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
         @match &facts.hand_over {
             Ok(handed) => {
                 p {
-                    "On a controller, sample by sample with causal velocities, the model has an error of "
-                    (percent(handed.causal.held_out)) " on held-out data; with the velocities of the fit, the error is "
+                    "On a controller (sample by sample, with causal velocities) the held-out error of the model is "
+                    (percent(handed.causal.held_out)) ". With the zero-phase velocities of the fit, the error is "
                     (percent(handed.nrmse.held_out)) ". As a feed-forward: " (handed.feed_forward.words()) "."
                 }
             }
@@ -56,7 +56,7 @@ pub(super) fn section(facts: &Facts, models: &[Handed]) -> Markup {
                     "The model as TOML, to copy"
                     @if texts.len() > 1 { ", file " (k + 1) }
                 }
-                p class="note" { code { "bowden validate model.toml RECORD.csv" } " shows whether the model still holds; firmware reads the same file." }
+                p class="note" { code { "bowden validate model.toml RECORD.csv" } " tests whether the model is still valid. Firmware reads the same file." }
                 pre tabindex="0" aria-label="The model as TOML" { code { (text) } }
             }
         }

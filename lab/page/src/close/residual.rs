@@ -49,11 +49,11 @@ fn over_one(one: &Dependence, k: usize, unit: Option<&str>) -> Chart {
     };
     let ((before, all), (after, _)) = (off_zero(&one.bins, 0), off_zero(&one.bins, 1));
     let caption = match all {
-        0 => "means only: each bin is one stretch of time".to_owned(),
+        0 => "no intervals, because each bin is one time interval".to_owned(),
         _ => format!("{before} → {after} of {all} bins differ from zero"),
     };
     let description = format!(
-        "Mean residual in bins over {}, before → after at 95 %: {caption}.",
+        "Mean residual in bins over {}, before → after, at the 95 % level: {caption}.",
         one.words
     );
     Chart::new(&format!("over-{k}"), &one.words, &description, x, y)
@@ -82,7 +82,7 @@ pub(crate) fn over_all(figures: &Figures, unit: Option<&str>) -> Markup {
         p {
             "Mean residual in bins with equal numbers of samples, with 95 % intervals that allow for correlation in time. "
             "Open: " (first.name) "; filled: " (last.name)
-            ". If the filled dots form a curve, the model lacks an effect; about one bin in twenty differs from zero by chance."
+            ". If the filled dots form a curve, the model lacks an effect. By chance, about one bin in twenty differs from zero."
         }
         div class="grid-of" { @for chart in worst { (chart) } }
         @if !others.is_empty() {
@@ -107,7 +107,7 @@ pub(super) fn noise(facts: &Facts, figures: &Figures) -> Markup {
 pub(crate) fn noise_of(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Markup {
     html! {
         p {
-            "The filter correlates even noise over a few samples: the grey band contains 95 % of " "its estimates. A residual that stays inside the band is noise; otherwise the model " "lacks an effect."
+            "The filter correlates even white noise over a few samples. The grey band contains 95 % of the estimates for filtered white noise. If the residual stays inside the band, it is noise. Otherwise the model lacks an effect."
         }
         div class="pair" {
             (autocorrelation(figures).figure())
@@ -127,7 +127,7 @@ fn autocorrelation(figures: &Figures) -> Chart {
         .map(|r| format!("{:.0} %", 100.0 * of.outside(r)))
         .collect();
     let description = format!(
-        "Autocorrelation of the residuals over lags up to {} s. Outside the band for noise: {} of the lags, {} → {}.",
+        "Autocorrelation of the residuals over lags up to {} s. Lags outside the noise band: {} ({} → {}).",
         number(at(of.white.len().saturating_sub(1)), Some(0.01)),
         outside.join(" → "),
         first.name,
@@ -190,7 +190,7 @@ fn spectrum(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Chart {
         scale: Scale::logarithmic(seen),
     };
     let description = format!(
-        "Root of the spectral density of the residuals on the fit segment. Vertical: the filter's cut-off at {cutoff} Hz. Dotted: the sensor's noise, estimated from the record."
+        "Square root of the power spectral density of the residuals on the fit segment. The vertical line is the cut-off frequency of the filter, {cutoff} Hz. The dotted line is the sensor noise, estimated from the record."
     );
     let pairs = |values: &[f64]| -> Vec<[f64; 2]> {
         let own = of.frequency.iter().zip(values);
@@ -205,9 +205,9 @@ fn spectrum(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Chart {
     let chart = chart.key("before", &first.name).key("final", &last.name);
     match of.floor.is_empty() {
         true => chart,
-        false => chart.key("floor", "the sensor's noise"),
+        false => chart.key("floor", "sensor noise"),
     }
-    .caption("The vertical line is the filter's cut-off.")
+    .caption("The vertical line is the cut-off frequency of the filter.")
 }
 
 /// The curve of what no effect in the catalogue explains.

@@ -99,7 +99,7 @@ pub(crate) fn trace(signals: &Signals, file: &File, id: &str) -> Chart {
     let [first, last] = &signals.models;
     let seconds = file.rows.len() as f64 * signals.step;
     let description = format!(
-        "The measured {} over {seconds:.1} s with the {} and the {} model. Segments are marked in the background.",
+        "The measured {} over {seconds:.1} s, with the {} model and the {} model. The background marks the segments.",
         signals.measured.name, first.name, last.name
     );
     let chart = Chart::new(
@@ -130,7 +130,7 @@ pub(crate) fn residual_over_time(signals: &Signals, file: &File, id: &str) -> Ch
         })
     };
     let description = format!(
-        "Residual of the {} and the {} model over time; the largest values are {} and {}{}.",
+        "Residuals of the {} model and the {} model over time. The largest values are {} and {}{}.",
         first.name,
         last.name,
         number(largest(0), None),
@@ -175,7 +175,7 @@ fn zoom(signals: &Signals, file: &File, id: &str) -> Option<Chart> {
     let title = "Where the error is largest";
     let [first, last] = &signals.models;
     let description = format!(
-        "On {segment} the largest error is at {at} s: {before} for {} and {after}{} for {}.",
+        "The largest error on {segment} is at {at} s: {before} for the {} model and {after}{} for the {} model.",
         first.name,
         unit.map_or_else(String::new, |u| format!(" {u}")),
         last.name
@@ -212,7 +212,7 @@ pub(crate) fn hysteresis_loop(signals: &Signals, file: &File, id: &str) -> Chart
         scale: Scale::linear(rows().flat_map(|row| columns.map(|c| c.values[row]))),
     };
     let description = format!(
-        "The output {} over the input {}: the measured loop, and the loops of the {} and the {} model.",
+        "The output {} over the input {}: the measured loop, and the loops of the {} model and the {} model.",
         signals.measured.name, signals.input.name, first.name, last.name
     );
     let of = |column: &Column| {
@@ -248,7 +248,7 @@ fn residual_loop(signals: &Signals, file: &File, id: &str) -> Chart {
         points.collect::<Vec<_>>()
     };
     let description = format!(
-        "The residuals of the {} and the {} model over the input {}. A loop here is hysteresis or delay that the model lacks.",
+        "The residuals of the {} model and the {} model over the input {}. A loop shows hysteresis or delay that the model lacks.",
         first.name, last.name, signals.input.name
     );
     Chart::new(id, "Residual over input", &description, x, y)
@@ -307,8 +307,8 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
             (format!("{:.1}", record.seconds)) " s; " (record.mode.name()) " mode: "
             (record.input) " → " (record.output)
             @if !record.channels.is_empty() { ", with " (record.channels.join(", ")) }
-            ". All signals pass through the same zero-phase filter with a cut-off of " (record.cutoff) " Hz. Parameters are fitted on "
-            i { "fit" } ", " i { "selection" } " rejects a term that raises the error, and nothing is fitted to " i { "held-out" } "."
+            ". The same zero-phase filter is applied to all signals; its cut-off frequency is " (record.cutoff) " Hz. The parameters are fitted on "
+            i { "fit" } ", " i { "selection" } " serves to reject terms that raise the error, and nothing is fitted on " i { "held-out" } "."
         }
         @for note in &record.notes { p class="note" { (note) } }
         @for defect in &record.defects { p { b { "Defect. " } (defect.channel) ": " (defect.message) } }
@@ -334,7 +334,7 @@ fn read(signals: &Signals, file: &File, column: &Column, id: &str) -> Chart {
         label: quantity(&column.name, column.unit.as_deref()),
         scale: Scale::linear(values.iter().copied()),
     };
-    let description = format!("`{}` over time, through the filter.", column.name);
+    let description = format!("`{}` over time, after the filter.", column.name);
     let x = time_axis(signals, file, &file.rows);
     let points = over_time(signals, file, file.rows.clone(), &column.values);
     Chart::new(id, &column.name, &description, x, y)
@@ -361,8 +361,8 @@ pub(crate) fn of_files(signals: &Signals) -> Markup {
 pub(super) fn loops(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         p {
-            "Without hysteresis the output would be a function of the input, and the loop a single curve. The height of the loop at a given input is the difference between the forward and the backward stroke"
-            (in_brackets(facts.record.unit.as_deref())) ". On the right: the residuals over the same input."
+            "Without hysteresis the output would be a function of the input, and the loop would be a single curve. The height of the loop at a given input is the difference between the forward stroke and the backward stroke"
+            (in_brackets(facts.record.unit.as_deref())) ". The figure on the right shows the residuals over the same input."
         }
         (loops_of_files(&figures.signals))
     }

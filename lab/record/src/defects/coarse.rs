@@ -41,7 +41,7 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
     }
     Some(Found {
         message: format!(
-            "coarse: steps of {step} over {levels} levels, an error of {:.1} % of the signal's spread; choose a finer sensor or range",
+            "coarse: steps of {step} over {levels} levels cause an error of {:.1} % of the signal's standard deviation; use a finer sensor or range",
             100.0 * share
         ),
         grave: share > GRAVE,

@@ -20,7 +20,7 @@ pub(super) fn find(time: &[f64]) -> Option<Found> {
     let word = if gaps.len() == 1 { "gap" } else { "gaps" };
     Some(Found {
         message: format!(
-            "{} {word} in time, the longest of {longest:.4} s instead of the usual {step:.4} s; {:.2} % of the time",
+            "{} {word} in time, {1:.2} % of the record; the longest is {longest:.4} s instead of the usual {step:.4} s",
             gaps.len(),
             100.0 * share
         ),

@@ -26,7 +26,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
     let rms = (known.iter().map(|s| s * s).sum::<f64>() / known.len() as f64).sqrt();
     Some(Found {
         message: format!(
-            "the time stamps jitter by {:.0} % of a step (rms), but the samples are evenly spaced: an error of {:.1} % of a signal's spread; --rate HZ computes the time from the row number",
+            "the time stamps jitter by {:.0} % of the sampling period (rms), but the samples are evenly spaced, so a signal has an error of {:.1} % of its standard deviation; --rate HZ computes the time from the row number",
             100.0 * rms,
             100.0 * error
         ),

@@ -120,7 +120,7 @@ impl<'a> Leaps<'a> {
         };
         (share <= GRAVE).then(|| Found {
             message: format!(
-                "spikes: up to {} for at most {within}, {}; replaced by a straight line, {:.2} % of the samples",
+                "spikes: up to {} for at most {within}, {}; a straight line replaces {:.2} % of the samples",
                 three_digits(highest),
                 times(samples.len()),
                 100.0 * share

@@ -137,7 +137,7 @@ fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, Record
             Ok(table)
         }
         (_, None) => Err(RecordError::new(
-            "the JSON holds no table: allowed are an array of records, one record per line, or an object of columns",
+            "the JSON contains no table; use an array of records, one record per line, or an object of columns",
         )),
         (_, Some(last)) => {
             let paths = tables.iter().chain([&last]).map(|own| own.path.as_str());
@@ -147,7 +147,7 @@ fn within(fields: Vec<(String, Json)>, names: &[String]) -> Result<Table, Record
                 .map(|path| format!("`{}`", shown(path, NAME_LENGTH)))
                 .collect();
             Err(RecordError::new(format!(
-                "the JSON holds several tables ({}); put each into a separate file",
+                "the JSON contains several tables ({}); write each to a separate file",
                 paths.join(", ")
             )))
         }
@@ -277,7 +277,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             let message = match own.names.len() {
                 0 => "the rows of the JSON have no names; --names t,x,f names their columns"
                     .to_owned(),
-                count => format!("{width} cells, but there are {count} names"),
+                count => format!("the row has {width} cells, but there are {count} names"),
             };
             return Err(RecordError::at(1, message));
         }
@@ -304,7 +304,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             }
             Json::List(values) => {
                 let message = format!(
-                    "{} cells, but there are {} names",
+                    "the column has {} cells, but there are {} names",
                     values.len(),
                     own.names.len()
                 );
@@ -313,7 +313,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             Json::Cell(_) => {
                 return Err(RecordError::at(
                     row + 1,
-                    "neither a record nor a row of the JSON",
+                    "this is neither a record nor a row of the JSON",
                 ));
             }
         }
@@ -332,7 +332,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
         }
         // Names that change from record to record name no columns.
         if table.columns.len() > PIECES {
-            let message = "the records so far have too many different names for a table";
+            let message = "the records have too many different names for a table";
             return Err(RecordError::at(row + 1, message));
         }
     }

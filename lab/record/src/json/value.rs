@@ -30,14 +30,15 @@ pub(super) fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, R
             Err(error) if error.is_eof() && all.len() > 1 => {
                 let line = all.len() + 1;
                 notes.push(format!(
-                    "line {line}, the last one, dropped: it is truncated"
+                    "the last line, {line}, is truncated and was dropped"
                 ));
             }
             Err(error) => {
                 let place = format!(" at line {} column {}", error.line(), error.column());
                 let why = error.to_string().replace(&place, "");
                 let why = shown(&why, 2 * NAME_LENGTH);
-                let message = format!("the file begins as JSON, but is not valid here: {why}");
+                let message =
+                    format!("the file begins as JSON, but the JSON is invalid here: {why}");
                 return Err(RecordError::at(error.line(), message));
             }
         }

@@ -75,7 +75,7 @@ impl<'a> Elements<'a> {
         }
         let length = self.order.u32(&tag[4..]) as usize;
         let bytes = behind.get(..length);
-        let bytes = bytes.ok_or_else(|| damaged("it ends in the middle of an element"))?;
+        let bytes = bytes.ok_or_else(|| damaged("the file ends inside an element"))?;
         let padded = match word {
             // A compressed element.
             15 => length,
@@ -131,7 +131,7 @@ fn unpack(bytes: &[u8], room: &mut u64) -> Result<Vec<u8>, Damage> {
     let length = unpacked.len() as u64;
     *room = room
         .checked_sub(length)
-        .ok_or_else(|| format!("is larger than {} MiB unpacked", BYTES >> 20))?;
+        .ok_or_else(|| format!("the file is larger than {} MiB when unpacked", BYTES >> 20))?;
     Ok(unpacked)
 }
 

@@ -157,7 +157,7 @@ fn settings(
     let Boxes { alpha, delta, .. } = *boxes;
     if boxes.gain.low <= 0.0 {
         return Err(format!(
-            "the interval of B extends to {:.4}: the law needs a gain above zero",
+            "the interval for B includes values down to {:.4}, but the adaptive law needs a positive gain",
             boxes.gain.low
         ));
     }
@@ -173,7 +173,7 @@ fn settings(
     let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
     if h * lambda > 1.0 {
         return Err(format!(
-            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay; the step must be at most {:.3} s: raise the rate or shorten the delay",
+            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the first whole number of samples beyond the delay; the step must be at most {:.3} s, so raise the rate or shorten the delay",
             (0.25 * found.loop_gain / g).sqrt()
         ));
     }
@@ -222,13 +222,16 @@ fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String>
     let super::Slopes { least, greatest } = plant.slopes;
     let Some(reference_rate) = around.reference_rate else {
         return Err(format!(
-            "the smallest slope of the output is {least:.4}: the rate of the hysteresis has no useful bound"
+            "the rate of the hysteresis has no useful bound, because the smallest slope of the output is {least:.4}"
         ));
     };
     let [low, high] = plant.output().ok_or(super::TOO_SHORT)?;
     let cutoff = plant.about.cutoff_hz;
     if plant.effects > 0.0 && !(cutoff.is_finite() && cutoff > 0.0) {
-        return Err("no about.cutoff_hz: the rate of the effects has no bound".to_owned());
+        return Err(
+            "the rate of the effects has no bound, because the model file has no about.cutoff_hz"
+                .to_owned(),
+        );
     }
     // Bernstein: what is band-limited to f and stays below M has a rate below 2·pi·f·M.
     let effects = match plant.effects > 0.0 {
@@ -265,7 +268,7 @@ fn certificate(
     let peak = PeakSampled::try_new(&law, &bounds).map_err(|e| e.to_string())?;
     if peak.bound > known.reference {
         return Err(format!(
-            "the certificate is vacuous: its bound of {:.3} N·m exceeds the largest output of {:.3} N·m",
+            "its bound of {:.3} N·m would exceed the largest output of {:.3} N·m",
             peak.bound, known.reference
         ));
     }

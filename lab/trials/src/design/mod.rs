@@ -72,7 +72,7 @@ const MOST_DELAY: f64 = 1000.0;
 const WORTH: f64 = 1.1;
 
 /// Why there is neither a reference nor a certificate.
-pub(crate) const TOO_SHORT: &str = "the stroke of the record is shorter than the hysteresis: no torque is reached in both directions, so there is no reference; record a larger stroke";
+pub(crate) const TOO_SHORT: &str = "the recorded stroke is shorter than the hysteresis, so no torque is reached in both directions and there is no reference; record a larger stroke";
 
 /// Gain margin that a loop must keep whose every step is the longest one.
 const LONG_MARGIN: f64 = 1.4;
@@ -193,8 +193,14 @@ impl Question {
             (self.drive_gain, "--drive-gain", "N·m/command unit", true),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let from = if above { "above zero" } else { "zero or above" };
-                return Err(format!("{option} {value}: must be {from} [{unit}]"));
+                let from = if above {
+                    "positive"
+                } else {
+                    "zero or positive"
+                };
+                return Err(format!(
+                    "{option} {value}: the value [{unit}] must be {from}"
+                ));
             }
         }
         Ok(())
@@ -233,7 +239,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     let delay = asked.delay + plant.own_delay;
     if delay * asked.rate > MOST_DELAY {
         return Err(format!(
-            "--rate {}: the delay of {delay} s is more than {MOST_DELAY} samples; lower the rate",
+            "--rate {}: the delay of {delay} s is longer than {MOST_DELAY} samples; lower the rate",
             asked.rate
         ));
     }
@@ -364,13 +370,13 @@ impl Safety {
 fn read(text: &str, label: &str) -> Result<ModelFile, String> {
     if text.trim().is_empty() {
         return Err(format!(
-            "{label}: is empty; give a model written by `bowden identify --model-out`"
+            "{label}: the file is empty; give a model written by `bowden identify --model-out`"
         ));
     }
     let file: ModelFile = toml::from_str(text).map_err(|e| message(&e, text, label))?;
     if file.schema != "bowden.model/1" {
         return Err(format!(
-            "{label}: schema {:?}: must be \"bowden.model/1\"",
+            "{label}: schema {:?} must be \"bowden.model/1\"",
             file.schema
         ));
     }
@@ -454,7 +460,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let least = plant.slopes.least;
     if least < 0.0 {
         notes.push(format!(
-            "the smallest slope is {least:.4}: after a reversal the output reverses while the input continues, and no margin covers this case; `bowden identify --invertible` fits a model without it"
+            "the smallest slope is {least:.4}, so after a reversal the output moves against the input, and no margin covers this case; `bowden identify --invertible` fits a model with positive slopes"
         ));
     }
     if plant.output().is_none() {
@@ -463,11 +469,11 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let [low, high] = plant.input;
     if adaptive.certificate.is_some() && low * high >= 0.0 {
         notes.push(
-            "the limits are on one side of zero, as the record is; `bowden certify` refuses such a file, because its theorem needs limits on both sides; the certificate above ignores the limits".to_owned(),
+            "the command limits are on one side of zero, as in the record. `bowden certify` rejects such a file, because its theorem needs limits on both sides. The certificate above ignores the limits".to_owned(),
         );
     } else if let Some(why) = &adaptive.unproved {
         notes.push(format!(
-            "`bowden certify` proves no bound for this file, because {why}; the certificate above ignores the limits and the slew-rate limit"
+            "`bowden certify` cannot prove a bound for this file, because {why}. The certificate above ignores the command limits and the slew-rate limit"
         ));
     }
     if plant.own_delay > 0.0 {
@@ -478,7 +484,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     }
     if !plant.left_out.is_empty() {
         notes.push(format!(
-            "the slopes exclude the other terms that read the input: {}",
+            "the slopes do not include the other terms that read the input: {}",
             plant.left_out.join(", ")
         ));
     }
@@ -487,7 +493,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     }
     if !adaptive.assumed.is_empty() {
         notes.push(format!(
-            "the model file has no interval for {}; ±10 % was assumed",
+            "the model file has no interval for {}, so ±10 % was assumed",
             adaptive.assumed.join(", ")
         ));
     }

@@ -73,7 +73,7 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
         .and_then(|about| about.verdict.as_deref());
     if verdict == Some("no-input-dependence") {
         return Err(
-            "its verdict is `no-input-dependence`: it does not describe its records, so no gains can be derived from it; `bowden identify` says what to do".to_owned(),
+            "the model does not describe its records (verdict `no-input-dependence`), so no gains can be derived from it; `bowden identify` prints the reason".to_owned(),
         );
     }
     in_newton_metres(file)?;
@@ -87,7 +87,7 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "the output falls while the input rises (gain {gain:.4}): change the sign of one of them in the record and fit again, and wire the drive or the sensor accordingly"
+        "the output falls while the input rises (gain {gain:.4}); reverse one of them in the record, fit again, and wire the drive or the sensor accordingly"
     ))
 }
 
@@ -102,7 +102,7 @@ fn in_newton_metres(file: &ModelFile) -> Result<(), String> {
         let other = stated(end).filter(|unit| !is_same_unit(unit, TORQUE));
         if let Some(unit) = other.filter(|_| file.mode == "torque") {
             return Err(format!(
-                "its {end} is in {unit}: it must be in {TORQUE}, the unit of noise, limits and gains; convert the columns of the record and fit again"
+                "its {end} is in {unit}, but it must be in {TORQUE}, the unit of the noise, the limits and the gains; convert the columns of the record and fit again"
             ));
         }
     }
@@ -132,7 +132,7 @@ impl Plant {
     pub(super) fn without_unit(&self) -> Option<&'static str> {
         let stated = |end: &str| self.about.units.contains_key(end);
         (!(stated("input") && stated("output"))).then_some(
-            "the record states no unit of its torques: they are assumed to be in N·m; if they are in mN·m, all limits are a thousand times too wide",
+            "the record has no torque unit, so N·m is assumed. If the unit is mN·m, all limits are a thousand times too wide",
         )
     }
 
@@ -140,19 +140,19 @@ impl Plant {
     pub(super) fn new(file: &ModelFile) -> Result<Self, String> {
         if file.mode != "torque" {
             return Err(format!(
-                "mode {:?}: must be torque, because the loop commands a torque",
+                "mode {:?} must be torque, because the loop commands a torque",
                 file.mode
             ));
         }
         let model = file.model::<{ bowden_lab::export::MOST_TERMS }>()?;
         let Some(cable) = model.transmission().copied() else {
-            return Err("no table `transmission`: the model must contain it".to_owned());
+            return Err("the model has no table `transmission`".to_owned());
         };
         let about = file.about.clone().ok_or(
-            "no table `about`: the limits come from `about.ranges`, which `bowden identify --model-out` writes",
+            "the model has no table `about`, but the limits come from `about.ranges`, which `bowden identify --model-out` writes",
         )?;
         let seen = about.ranges.get("input").ok_or(
-            "no table `about.ranges.input`: the limits come from it; `bowden identify --model-out` writes it",
+            "the model has no table `about.ranges.input`, from which the limits come; `bowden identify --model-out` writes it",
         )?;
         let (input, input_rate) = (seen.position, seen.velocity);
         for (range, name) in [(input, "position"), (input_rate, "velocity")] {
@@ -203,7 +203,7 @@ impl Plant {
         use bowden::effect::{EffectState, Inputs, Motion};
         let Some(span) = self.about.ranges.get(&term.source) else {
             return Err(format!(
-                "no table `about.ranges.{}`: the term {} reads this channel",
+                "the model has no table `about.ranges.{}`, but the term {} reads this channel",
                 term.source, term.effect
             ));
         };

@@ -55,8 +55,10 @@ impl Designed {
     #[must_use]
     pub fn certifies(&self) -> Certifies {
         let lacks = match (&self.gains.adaptive, &self.gains.plant) {
-            (None, _) => "it has no [adaptive], since no gains of that law are admissible",
-            (_, None) => "it has no [plant]",
+            (None, _) => {
+                "the file has no table [adaptive], because no gains of the adaptive law are admissible"
+            }
+            (_, None) => "the file has no table [plant]",
             _ => {
                 return match designed::prove(&self.gains) {
                     Ok(proof) if proof.proved => Certifies::Proves,

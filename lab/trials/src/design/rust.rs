@@ -67,7 +67,7 @@ fn head(designed: &Designed) -> String {
     line!(out, "//!");
     line!(
         out,
-        "//! {} Hz, {} s from a command to its effect in the measured torque, {} N·m for one command unit.",
+        "//! {} Hz, {} s from a command to its effect on the measured torque, {} N·m per command unit.",
         for_.rate,
         for_.delay,
         for_.drive_gain
@@ -124,7 +124,7 @@ fn bounds(designed: &Designed, out: &mut String) {
     let after = b.fallback_after;
     line!(
         out,
-        "/// The safe command [command unit] after {after} bad samples in a row."
+        "/// The safe command [command unit] after {after} successive bad samples."
     );
     let safe = number(b.fallback_command);
     let fallback = format!("constant!(Fallback::<f32>::try_new({after}, {safe}))");
@@ -169,7 +169,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out);
     line!(
         out,
-        "/// Step [s] and largest gain of the plant [N·m/command unit]."
+        "/// Step [s], and largest gain of the plant [N·m/command unit]."
     );
     line!(out, "const LAG: Form<f32> = Form::FirstOrder {{");
     line!(out, "    step: {},", number(step));
@@ -184,7 +184,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         ("EPSILON", "epsilon [N·m]", own.epsilon),
         (
             "LONGEST_STEP",
-            "Longest valid step of the law [s]; a sample with a longer one is bad",
+            "Longest valid step of the law [s]; a longer step is bad",
             own.longest_dt,
         ),
     ] {
@@ -209,14 +209,14 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     line!(out);
     line!(
         out,
-        "/// The adaptive law in first-order form without regressors, checked."
+        "/// The adaptive law in first-order form, without regressors."
     );
     line!(out, "///");
     match every {
         1 => line!(out, "/// Call it once per sample."),
         _ => line!(
             out,
-            "/// Call `step` on one sample in {every} only: the plant must respond within one step of the law."
+            "/// Call `step` only on one sample in {every}, because the plant must respond within one step of the law."
         ),
     }
     line!(out, "#[allow(dead_code)]");
@@ -232,7 +232,7 @@ fn limits_of_steps(own: &AdaptiveSettings<f64, 0>, out: &mut String) {
     let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
     line!(
         out,
-        "/// The safe command [command unit] after {after} bad steps of the law in a row."
+        "/// The safe command [command unit] after {after} successive bad steps of the law."
     );
     let fallback = format!(
         "constant!(Fallback::<f32>::try_new({after}, {}))",

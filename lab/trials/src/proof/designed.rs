@@ -12,7 +12,7 @@ use bowden::control::{self, AdaptiveSettings};
 /// Where the file has no law in lag form or nothing of its plant, or where a limit is zero.
 pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
     let law = gains.adaptive.as_ref().ok_or(
-        "has no [adaptive]: the design found no admissible gains of the adaptive law (`bowden design` says why)",
+        "has no [adaptive], because the design found no admissible gains of the adaptive law (`bowden design` prints the reason)",
     )?;
     let known = gains.plant.as_ref().ok_or_else(|| {
         format!("{NO_PLANT} (`bowden design` writes it if the model bounds the rate of the disturbance)")
@@ -25,7 +25,7 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
         proof.refused = Some(Refusal {
             text: Named::Command.text(),
             mend: format!(
-                "symmetric limits (they are {low} and {high}): if a limit is active, the proof needs symmetric limits"
+                "symmetric command limits instead of {low} and {high}, because the command may saturate within the bounds of the proof"
             ),
         });
     }
@@ -40,7 +40,7 @@ fn form(law: &AdaptiveSettings<f64, 0>, known: &Known) -> Result<Form, String> {
     let command = high.min(-low);
     if !(command.is_finite() && command > 0.0) {
         return Err(format!(
-            "[adaptive]: limits {low} to {high}: they must be finite and on both sides of zero"
+            "[adaptive]: limits {low} to {high} must be finite and on both sides of zero"
         ));
     }
     Ok(Form {

@@ -86,14 +86,15 @@ macro_rules! number {
                 if x.is_finite() && ok(x) {
                     Ok(Self(x))
                 } else {
-                    Err(format!("{x}: must be {}", $what))
+                    Err(format!("{x} must be {}", $what))
                 }
             }
         }
     };
 }
-number!(Positive, "a finite number above zero", |x| x > 0.0);
-number!(NotNegative, "a finite number, zero or above", |x| x >= 0.0);
+number!(Positive, "a finite positive number", |x| x > 0.0);
+number!(NotNegative, "a finite number, zero or positive", |x| x
+    >= 0.0);
 
 /// A checked box, likewise. It is read as a list of any length: an array of two would take
 /// the first two of three.
@@ -113,7 +114,7 @@ macro_rules! range {
                     {
                         Ok(Self([low, high]))
                     }
-                    _ => Err(format!("{list:?}: must be {}", $what)),
+                    _ => Err(format!("{list:?} must be {}", $what)),
                 }
             }
         }
@@ -126,11 +127,11 @@ range!(
 );
 range!(
     Above,
-    "a pair of finite numbers above zero, the lower one first",
+    "a pair of finite positive numbers, the lower one first",
     |low| low > 0.0
 );
 range!(
     NotBelow,
-    "a pair of finite numbers not below zero, the lower one first",
+    "a pair of finite numbers, zero or positive, the lower one first",
     |low| low >= 0.0
 );

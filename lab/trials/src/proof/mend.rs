@@ -41,27 +41,27 @@ pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
         }
         Named::Stiffness => format!("k above 1/lambda² = {}", up(1.0 / (lambda * lambda))),
         Named::SStays => format!(
-            "a larger k or lambda, a higher lower bound of beta_hat, {coarse}: k = {k} is too close to 1/lambda² = {}",
+            "a larger k or lambda, a higher lower bound of beta_hat, or {coarse}, because k = {k} is too close to 1/lambda² = {}",
             up(1.0 / (lambda * lambda))
         ),
-        Named::ZStays | Named::Owed | Named::Slack => format!("{coarse}: the step of z is smaller than its rounding error"),
+        Named::ZStays | Named::Owed | Named::Slack => format!("{coarse}, because the increment of z is smaller than its rounding error"),
         Named::ZLimit => format!("z_limit of at least {} N·m·s", up(left)),
         Named::Command => format!(
-            "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right})",
+            "a command limit of at least {} instead of {right}, a smaller reference or a smaller disturbance",
             up(left)
         ),
         Named::Reserve => format!(
-            "a limit of the command of at least {}, a smaller reference or a smaller disturbance (the limit is {right}, and must hold the reference against the disturbance)",
+            "a command limit of at least {} instead of {right}, a smaller reference or a smaller disturbance, because the saturated command must hold the reference against the disturbance",
             up(left)
         ),
         Named::Waiting => format!("a rate of at least {} Hz", up(left / step)),
         Named::Slew => format!(
-            "a slew-rate limit of at least {} instead of {}, or none: a lower limit may become active, and the proof is for a law whose slew-rate limit is inactive",
+            "a slew-rate limit of at least {} instead of {}, or no slew-rate limit, because the proof is valid only while this limit is inactive",
             up(1.001 * left / step),
             form.slew.map_or(f64::NAN, |slew| slew.0)
         ),
         Named::Overflow => {
-            "a larger epsilon, or smaller gains: a number in the step overflows its float type"
+            "a larger epsilon or smaller gains, because a number in the step overflows its float type"
                 .to_owned()
         }
     }

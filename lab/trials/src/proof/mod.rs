@@ -221,7 +221,7 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 }
 
 /// The error for a file of gains without a plant.
-const NO_PLANT: &str = "has no [plant]: add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
+const NO_PLANT: &str = "has no [plant]; add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
 
 /// The same for a text; `label` is the name of the file.
 ///
@@ -258,7 +258,9 @@ fn of_any<T: Real>(form: &Form) -> Result<Proof, String> {
         6 => of::<T, 6>(form),
         7 => of::<T, 7>(form),
         8 => of::<T, 8>(form),
-        many => Err(format!("{many} regressors: at most 8 are allowed")),
+        many => Err(format!(
+            "{many} regressors are too many; at most 8 are allowed"
+        )),
     }
 }
 
@@ -268,7 +270,8 @@ fn of<T: Real, const N: usize>(form: &Form) -> Result<Proof, String> {
     let examined = PeakRounded::examine(&settings, &plant).map_err(|e| e.to_string())?;
     // What is proved is of a controller that exists.
     if examined.is_proved() {
-        Adaptive::try_new(settings).map_err(|e| format!("the controller refuses: {e}"))?;
+        Adaptive::try_new(settings)
+            .map_err(|e| format!("the controller rejects these settings: {e}"))?;
     }
     Ok(proof(form, &settings, &plant, &examined))
 }
@@ -417,7 +420,7 @@ fn assumptions() -> Vec<&'static str> {
     let certificate = bowden_bound::Certificate { kind, value: 0.0 };
     let mut all = certificate.assumptions().to_vec();
     all.push(
-        "adaptation gains and leakages [1/s] are at most 2^30, and each prior lies within its bounds",
+        "the adaptation gains and the leakages [1/s] are at most 2^30, and each prior is within its bounds",
     );
     all
 }

@@ -34,7 +34,7 @@ struct Numbers {
 }
 
 /// The theorem of a limit is over the reals alone.
-const AT_THE_LIMIT: &str = "--coq: this proof allows the limit of the command to be active; certificates for Coq cover only inactive limits (theorems/Limit.v states the theorem, and --json lists all numbers)";
+const AT_THE_LIMIT: &str = "--coq: in this proof the command may saturate, but certificates for Coq cover only inactive limits; theorems/Limit.v contains the theorem, and --json lists all numbers";
 
 /// The certificate as a theorem: `coqc` accepts or rejects it.
 ///
@@ -244,13 +244,13 @@ fn read(exact: &str) -> Result<f64, String> {
         #[allow(clippy::cast_precision_loss)] // of a float: 53 bits at most
         Some(mantissa as f64 * 2_f64.powi(exponent.parse().ok()?))
     });
-    parts.ok_or_else(|| format!("{exact}: must be a number"))
+    parts.ok_or_else(|| format!("{exact} must be a number"))
 }
 
 /// A number as Coq reads it.
 fn fraction(x: Dyadic) -> Result<String, String> {
     let (mantissa, exponent) = x.parts();
-    let too_small = || format!("{x}: too small, or too large, to be written as a fraction");
+    let too_small = || format!("{x} is too small or too large for a fraction");
     let size = exponent.unsigned_abs();
     if size > 120 {
         return Err(too_small());

@@ -161,7 +161,10 @@ fn where_no_gain_is_admissible_it_says_why() {
     assert!(why.contains("h·lambda <= 1 exclude each other"), "{why}");
     let text = model(numbers, "") + "[about.intervals]\ngain = [-0.1, 1.9]\n";
     let open = design(&text, "m.toml", &ASKED).unwrap().adaptive;
-    assert!(open.refused.unwrap().contains("B extends to -0.1"));
+    assert!(open
+        .refused
+        .unwrap()
+        .contains("B includes values down to -0.1"));
     // A cable that turns back has gains and no certificate.
     let back = designed([0.9, 2.0, 0.05, 0.4, 3.0, 1.0], &ASKED);
     assert!(back.slopes.least < 0.0 && back.adaptive.settings.is_some());
@@ -171,5 +174,8 @@ fn where_no_gain_is_admissible_it_says_why() {
         .unwrap()
         .contains("smallest slope"));
     assert!(back.bounds.reference_rate.is_none());
-    assert!(back.notes.iter().any(|n| n.contains("the output reverses")));
+    assert!(back
+        .notes
+        .iter()
+        .any(|n| n.contains("the output moves against the input")));
 }

@@ -172,6 +172,6 @@ fn options_that_make_no_sense_are_one_line() {
             delay: 2.0,
             ..ASKED
         },
-        "--rate 1000: the delay of 2 s is more than 1000",
+        "--rate 1000: the delay of 2 s is longer than 1000",
     );
 }

@@ -7,7 +7,9 @@ fn gains_that_are_proved_are_said_to_be_with_all_nine_inequalities() {
     let report = said(&["certify", &example("gains_table2.toml"), "--verbose"]);
     assert!(
         report.contains("  PROVED in f32: |e| <= 0.8340 N·m at every sample\n")
-            && report.contains("Every rounding is included. The proof also gives |s| <= 0.4170"),
+            && report.contains(
+                "The bound includes every rounding error. The proof also gives |s| <= 0.4170"
+            ),
         "{report}"
     );
     assert_eq!(
@@ -38,7 +40,7 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     assert!(report.status.success(), "{report:?}");
     let report = text(&report.stdout).to_owned();
     assert!(
-        report.contains("\n  PROVED") && report.contains("the limit may become active"),
+        report.contains("\n  PROVED") && report.contains("the command may saturate"),
         "{report}"
     );
     let holds = report.lines().filter(|l| l.starts_with("holds "));
@@ -46,8 +48,8 @@ fn a_limit_that_may_be_met_is_proved_with_its_own_inequalities() {
     assert!(!report.contains("FAILS"), "{report}");
     // What is said to be enough is enough, and the box is the one without a limit.
     let weak = text(&with("40.0").stdout).to_owned();
-    let (_, enough) = weak.split_once("command of at least ").unwrap();
-    let enough = enough.split(',').next().unwrap();
+    let (_, enough) = weak.split_once("a command limit of at least ").unwrap();
+    let enough = enough.split(' ').next().unwrap();
     let mended = text(&with(enough).stdout).to_owned();
     assert!(mended.contains("\n  PROVED"), "{enough}: {mended}");
     let box_of = |report: &str| {
@@ -263,12 +265,12 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "k = 17.3",
             "k = nan",
-            &["gains.toml:3:5: `k`", "must be a finite number above zero"],
+            &["gains.toml:3:5: `k`", "must be a finite positive number"],
         ),
         (
             "k = 17.3",
             "k = -1",
-            &["gains.toml:3:5: `k`", "must be a finite number above zero"],
+            &["gains.toml:3:5: `k`", "must be a finite positive number"],
         ),
         (
             "disturbance = 7.056",
@@ -293,12 +295,12 @@ fn a_file_that_is_none_is_refused_with_file_line_and_column() {
         (
             "alpha = [0.92, 1.04]",
             "alpha = [0.0, 1.04]",
-            &["gains.toml:13:9: `alpha`", "above zero"],
+            &["gains.toml:13:9: `alpha`", "positive"],
         ),
         (
             "delta = [0.0, 5.0]",
             "delta = [-1, 5.0]",
-            &["gains.toml:10:9: `delta`", "not below zero"],
+            &["gains.toml:10:9: `delta`", "zero or positive"],
         ),
         (
             "float = \"f32\"",
@@ -349,7 +351,7 @@ fn gains_without_their_plant_are_told_what_was_expected() {
     let path = folder.root().join("bare.toml");
     std::fs::write(&path, format!("{before}[[regressor]]{behind}")).unwrap();
     let line = refused(&["certify", path.to_str().unwrap()]);
-    let expected = "bare.toml: has no [plant]: add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
+    let expected = "bare.toml: has no [plant]; add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
     assert!(line.ends_with(expected), "{line}");
     // What else is missing is told without the comment at the head of the file.
     std::fs::write(&path, own.replace("epsilon = 0.08", "")).unwrap();

@@ -126,7 +126,7 @@ fn the_papers_results_stand_beside_the_papers_rig_and_gains_alone() {
             "{table}"
         );
         assert!(
-            table.contains("Table 3 of that paper does not apply"),
+            table.contains("Table 3 of Nguyen et al. (2018) does not apply"),
             "{table}"
         );
     }

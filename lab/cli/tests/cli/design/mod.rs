@@ -176,7 +176,7 @@ fn bad_use_is_one_line_and_nothing_is_written() {
     let good = ["--rate", "1000", "--delay", "0.001"];
     let line = with(&good);
     assert!(
-        line.contains("m.toml: mode \"displacement\": must be torque"),
+        line.contains("m.toml: mode \"displacement\" must be torque"),
         "{line}"
     );
     for (rate, delay, part) in [
@@ -263,7 +263,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
     let (_, gains) = designed(&place);
     let line = refused(&["compare", "--gains", &gains, "--seeds", "1"]);
     assert!(
-        line.contains("gains.toml: gains from `bowden design` need the model")
+        line.contains("gains.toml: gains from `bowden design` need their model")
             && line.contains("--model MODEL.toml"),
         "{line}"
     );
@@ -302,12 +302,12 @@ fn the_rig_has_the_drive_gain_that_the_gains_were_designed_for() {
     assert_eq!(own["rows"], same["rows"]);
     let own = with(&[]);
     assert!(
-        own.contains("Drive gain: 1 N·m/unit, which the gains were designed for."),
+        own.contains("Drive gain: 1 N·m/unit, as in the design of the gains."),
         "{own}"
     );
     let other = with(&["--drive-gain", "0.6"]);
     assert!(
-        other.contains("Drive gain: 0.6 N·m/unit; the gains were designed for 1 N·m/unit."),
+        other.contains("Drive gain: 0.6 N·m/unit, but the gains were designed for 1 N·m/unit."),
         "{other}"
     );
 }
@@ -334,7 +334,7 @@ fn a_model_in_another_unit_of_torque_is_refused() {
             vec!["compare", "--model", &other, "--inertia", "0.002"],
         ] {
             let line = refused(&arguments);
-            let wanted = format!("its {end} is in mN·m: it must be in N·m");
+            let wanted = format!("its {end} is in mN·m, but it must be in N·m");
             assert!(
                 line.contains("milli.toml") && line.contains(&wanted),
                 "{line}"

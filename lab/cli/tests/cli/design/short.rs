@@ -20,16 +20,16 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     let asked = ["--rate", "500", "--delay", "0.006"];
     let report = said(&[["design", &model].as_slice(), &asked].concat());
     assert!(
-        report.contains("the record reaches no torque in both directions")
+        report.contains("no torque is reached in both directions of motion")
             && report.contains("record a larger stroke")
             && report.contains("no certificate"),
         "{report}"
     );
     // Neither of the two that refuse it is recommended.
     assert!(
-        report.contains("`bowden compare` refuses this model")
+        report.contains("`bowden compare` cannot use this model")
             && report
-                .contains("`bowden certify` refuses a file with these gains: it has no [plant]"),
+                .contains("`bowden certify` rejects these gains: the file has no table [plant]"),
         "{report}"
     );
     let gains = place.path("gains.toml");
@@ -91,9 +91,7 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     let line = refused(&["certify", &gains]);
     assert!(line.contains("on both sides of zero"), "{line}");
     assert!(
-        one.contains(
-            "\n        `bowden certify` refuses a file with these gains: [adaptive]: limits 2 to 40"
-        ),
+        one.contains("\n        `bowden certify` rejects these gains: [adaptive]: limits 2 to 40"),
         "{one}"
     );
 }
@@ -133,7 +131,7 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
     ] {
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(
-            report.contains("these gains: it has no [adaptive]"),
+            report.contains("these gains: the file has no table [adaptive]"),
             "{report}"
         );
         let line = report.lines().find(|l| l.contains("exclude each other"));
@@ -178,7 +176,7 @@ fn gains_of_another_model_are_told() {
     let other = place.file("other.toml", text(&model));
     let report = told(&other);
     assert!(
-        report.contains("gains.toml, which were designed for model.toml and not for this model"),
+        report.contains("gains.toml, designed for model.toml and not for this model"),
         "{report}"
     );
 }
@@ -194,7 +192,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
         let asked = ["compare", "--model", &model, "--gains", gains];
         said(&[asked.as_slice(), &fixed, light, more].concat())
     };
-    assert!(!compared(&gains, &[]).contains("At a limit of the command"));
+    assert!(!compared(&gains, &[]).contains("The command saturates"));
     // PI alone is slowed down.
     let mut table: toml::Table = toml::from_str(&text(&gains)).unwrap();
     let limits = &mut table["pi"].as_table_mut().unwrap()["limits"];
@@ -203,12 +201,10 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     limits.insert("slew".to_owned(), (0.02 * designed).into());
     let slow = place.file("slow.toml", toml::to_string(&table).unwrap());
     let report = compared(&slow, &[]);
-    let told = report
-        .lines()
-        .find(|l| l.contains("At a limit of the command"));
+    let told = report.lines().find(|l| l.contains("The command saturates"));
     let told = told.unwrap_or_else(|| panic!("{report}"));
     assert!(
-        told.contains("command: pi at its slew-rate limit in "),
+        told.contains("saturates: pi at its slew-rate limit in "),
         "{told}"
     );
     assert!(!told.contains("adaptive"), "{told}");
@@ -224,7 +220,7 @@ fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     assert!(told.contains(&percent), "{told}");
     let page = place.path("page.html");
     compared(&slow, &["--report", &page]);
-    assert!(text(&page).contains("command: pi at its slew-rate limit in "));
+    assert!(text(&page).contains("saturates: pi at its slew-rate limit in "));
 }
 
 /// Certificates without a model's cable would be believed to be of it.
@@ -234,12 +230,13 @@ fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {
     let (model, gains) = super::designed(&place);
     let line = refused(&["certify", "--gains", &model]);
     assert!(
-        line.contains("model.toml: is a model") && line.contains("`bowden design MODEL.toml"),
+        line.contains("model.toml: this file is a model")
+            && line.contains("`bowden design MODEL.toml"),
         "{line}"
     );
     let line = refused(&["certify", "--gains", &gains]);
     assert!(
-        line.contains("without --gains: `bowden certify FILE`"),
+        line.contains("certify this file with `bowden certify FILE`"),
         "{line}"
     );
 }

@@ -88,7 +88,7 @@ fn what_the_c_interface_has_no_room_for_is_refused_in_one_line() {
     let many = vec![term("x"); 17].join(", ");
     let (done, words) = exported(&nasty("\"x\"", &many));
     assert!(
-        !done && words.contains("17 terms: the C interface has room for 16"),
+        !done && words.contains("the model has 17 terms, but the C interface allows at most 16"),
         "{words}"
     );
     let names: Vec<String> = (0..17).map(|k| format!("\"c{k}\"")).collect();
@@ -141,7 +141,7 @@ fn a_play_before_the_model_has_its_name_and_half_width_in_c() {
     let (done, header) = exported(&text);
     assert!(done, "{header}");
     for line in [
-        " * The same with the input through bowden_play of half-width 0.081: 2.60 %.\n",
+        " * The same error with bowden_play of half-width 0.081 on the input: 2.60 %.\n",
         "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F32 0.081f\n",
         "#define MODEL_0_RIG_PLAY_HALF_WIDTH_F64 0.081\n",
     ] {

@@ -74,7 +74,10 @@ fn the_error_on_a_controller_is_printed_and_in_the_json() {
     let causal = per_cent(&json["final"]["causal_nrmse"]["held_out"]);
     let zero_phase = per_cent(&json["final"]["exported_model"]["nrmse"]["held_out"]);
     let ledger = said(&["identify"]);
-    let line = ledger.lines().find(|l| l.contains("causal rates")).unwrap();
+    let line = ledger
+        .lines()
+        .find(|l| l.contains("causal derivatives"))
+        .unwrap();
     assert!(line.contains(&causal), "{line}");
     assert_ne!(causal, zero_phase);
 }

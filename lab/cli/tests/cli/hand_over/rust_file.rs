@@ -182,8 +182,8 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
     for words in [
         "Input [N·m], output [N·m], torque mode.",
         "Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].",
-        "Fitted below ",
-        " samples per second.",
+        "Fitted to a record sampled at ",
+        " Hz and low-pass filtered at ",
         "Error as a share of the output's standard deviation: fit ",
         "Held-out error sample by sample",
         "Feed-forward: ",

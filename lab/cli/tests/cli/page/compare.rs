@@ -46,7 +46,7 @@ fn the_page_has_each_controller_with_the_conduit_at_rest_and_moved() {
         .next()
         .unwrap();
     assert!(
-        text(lead).contains("follows the reference best"),
+        text(lead).contains("has the smallest true error"),
         "{}",
         text(lead)
     );

@@ -107,8 +107,8 @@ fn unit(of: Dimension) -> String {
 #[test]
 fn the_page_of_the_effects_is_the_catalogue() {
     let mut page = String::from(
-        "# Effects\n\nThe effects that a model can have and that `bowden identify` looks for. x, v and \
-         a are position, velocity and acceleration of the effect's channel.\n\n\
+        "# Effects\n\nThe catalogue of effects that a model can contain and that `bowden identify` searches. \
+         x, v and a are the position, velocity and acceleration of the effect's channel.\n\n\
          | effect | family | mechanism | regressor | unit | memory |\n|---|---|---|---|---|---|\n",
     );
     for info in CATALOGUE {
@@ -134,10 +134,10 @@ const POLICY: &str = include_str!("../../../../identify/src/search/policy.rs");
 #[test]
 fn the_page_of_the_thresholds_is_their_constants() {
     let mut page = String::from(
-        "# Thresholds\n\nThe marks in `lab/identify/src/scale.rs`, which every room of the lab shares, \
-         and the constants of the search in `lab/identify/src/search/policy.rs`. The planted \
-         records are those of `operating_characteristics`. SSE is the squared error on the fit \
-         segment.\n\n| constant | value | meaning and reason |\n|---|---|---|\n",
+        "# Thresholds\n\nThe shared thresholds in `lab/identify/src/scale.rs`, and those of the search in \
+         `lab/identify/src/search/policy.rs`. SSE is the squared error on the fit segment. A null is a \
+         synthetic record without a missing effect. `operating_characteristics` generates the synthetic \
+         records.\n\n| constant | value | meaning and reason |\n|---|---|---|\n",
     );
     let mut words: Vec<&str> = Vec::new();
     for line in SCALE.lines().chain(POLICY.lines()) {

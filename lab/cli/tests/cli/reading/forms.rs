@@ -30,7 +30,7 @@ fn every_form_gives_the_same_answer_to_the_byte() {
             "decimal comma",
         ),
         (folder.file("utf_16.csv", utf_16(&csv())), "UTF-16LE"),
-        (folder.file("packed.csv.gz", packed), "unpacked from gzip"),
+        (folder.file("packed.csv.gz", packed), "gzip file unpacked"),
         (foreign("vectors.mat").display().to_string(), ""),
         (foreign("vectors_7_3.mat").display().to_string(), ""),
         (foreign("snappy.parquet").display().to_string(), ""),
@@ -42,7 +42,7 @@ fn every_form_gives_the_same_answer_to_the_byte() {
                 "vectors.mat.gz",
                 gzip(&std::fs::read(foreign("vectors.mat")).unwrap()),
             ),
-            "unpacked from gzip",
+            "gzip file unpacked",
         ),
     ] {
         let (answer, notes) = closed(&path, &[]);
@@ -57,10 +57,10 @@ fn a_spreadsheet_says_what_was_done_to_it() {
     let path = folder.file("excel.csv", latin_1(&german()));
     let text = said(&["identify", &path, "--max-terms", "0"]);
     for note in [
-        "the text is Windows-1252 (Latin-1)",
+        "text encoding: Windows-1252 (Latin-1)",
         "lines 1–4 above the names ignored",
         "units from line 6",
-        "numbers have a decimal comma",
+        "decimal commas were read",
         "columns not read: `Öltemperatur`, `Prüfer`",
         "lines 2567–2569 below the table ignored",
     ] {
@@ -82,7 +82,7 @@ fn an_option_gives_a_unit_and_a_segment() {
     let place = format!("{path}:2562: column `tick`: ");
     assert_eq!(
         line,
-        format!("bowden: {place}two records: the column names are repeated and the time restarts, from 9.99609375 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)")
+        format!("bowden: {place}the file contains two records: the column names are repeated, and the time restarts from 9.99609375 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)")
     );
     let text = said(&[
         "identify",
@@ -116,7 +116,8 @@ fn rows_that_are_left_out_are_counted_in_the_ledger_and_in_the_json() {
     lines[900] = lines[899].clone();
     let path = folder.file("bad.csv", lines.join("\n"));
     let text = said(&["identify", &path, "--drop-bad", "--max-terms", "0"]);
-    let note = "--drop-bad dropped 3 rows: 1 with an empty cell, 1 with NaN, 1 with the time stamp of the row before";
+    let note =
+        "--drop-bad dropped 3 rows: 1 with an empty cell, 1 with NaN, 1 with a repeated time stamp";
     assert!(text.contains(note), "{text}");
     let json = said(&args(&format!(
         "identify {path} --drop-bad --max-terms 0 --json"
@@ -323,7 +324,7 @@ fn a_pattern_reads_as_in_a_shell() {
     for (pattern, why) in [
         ("*/", "no file matches this pattern"),
         ("1.csv/*", "no file matches this pattern"),
-        ("[", "is not a pattern: invalid range pattern"),
+        ("[", "invalid pattern: invalid range pattern"),
     ] {
         let path = folder.path(pattern);
         let line = refused(&["identify", &path]);

@@ -33,7 +33,10 @@ fn a_form_that_is_not_read_is_named_with_what_to_do_instead() {
     ] {
         let path = folder.file(name, [magic, text.as_bytes()].concat());
         let line = line(&path, &[]);
-        assert!(line.starts_with(": is ") && line.contains(says), "{line}");
+        assert!(
+            line.starts_with(": the file is ") && line.contains(says),
+            "{line}"
+        );
     }
     // A header with nothing behind it; what the rest says is the crate's that reads HDF5.
     let v7_3 = [b"MATLAB 7.3 MAT-file".as_slice(), &[b' '; 493]].concat();
@@ -46,7 +49,7 @@ fn a_form_that_is_not_read_is_named_with_what_to_do_instead() {
     let v4 = foreign("version_4.mat").display().to_string();
     assert_eq!(
         line(&v4, &[]),
-        ": is a MATLAB file of version 4, which bowden does not read; save it in MATLAB with `save -v7`"
+        ": the file is a MATLAB file of version 4, which bowden does not read; save it in MATLAB with `save -v7`"
     );
 }
 
@@ -57,7 +60,10 @@ fn a_damaged_file_is_refused() {
     let short = line(&folder.file("short.gz", &packed[..packed.len() / 2]), &[]);
     assert!(short.starts_with(": the gzip file is damaged: "), "{short}");
     let twice = line(&folder.file("twice.gz", gzip(&packed)), &[]);
-    assert_eq!(twice, ": is compressed with gzip twice; unpack it once");
+    assert_eq!(
+        twice,
+        ": the file is compressed with gzip twice; unpack it once"
+    );
     for name in [
         "vectors.mat",
         "structure.mat",
@@ -119,38 +125,38 @@ fn what_a_foreign_file_lacks_is_said_with_the_column() {
         |name: &str, options: &[&str]| line(&foreign(name).display().to_string(), options);
     assert_eq!(
         foreign("words.mat", &[]),
-        ": no vector of real numbers among the variables `who`, `rate`; each column must be one vector, alone or as a field of a structure"
+        ": no vector of real numbers among the variables `who`, `rate`; each column must be one vector, on its own or as a field of a structure"
     );
     assert_eq!(
         foreign("lengths.mat", &[]),
-        ": column `f`: has 239 values; it must have 240, as `t` does"
+        ": column `f`: the column has 239 values, but it must have 240, as `t` does"
     );
     for name in ["complex.mat", "complex_7_3.mat"] {
         let line = foreign(name, &[]);
         assert!(
-            line.starts_with(": column `x`: no such column among "),
+            line.starts_with(": column `x`: no such column; the columns are "),
             "{name}: {line}"
         );
     }
     assert_eq!(
         foreign("vectors.mat", &["--header-line", "2"]),
-        ": --header-line 2: the file has no lines; its columns have names already"
+        ": --header-line 2: the file has no lines, and its columns already have names"
     );
     assert_eq!(
         foreign("words.parquet", &[]),
-        ": no numeric column; each quantity must have one"
+        ": the file has no numeric column; each quantity must have one"
     );
     for codec in ["zstd", "brotli"] {
         assert_eq!(
             foreign(&format!("{codec}.parquet"), &[]),
             format!(
-                ": column `t`: is compressed with {codec}, which bowden does not read; write the file with snappy or gzip"
+                ": column `t`: the column is compressed with {codec}, which bowden does not read; write the file with snappy or gzip"
             )
         );
     }
     assert_eq!(
         foreign("null.parquet", &[]),
-        ":100: column `x`: the cell is empty, but must be a number; --drop-bad drops such rows"
+        ":100: column `x`: the cell is empty, but it must be a number; --drop-bad drops such rows"
     );
 }
 
@@ -169,24 +175,24 @@ fn text_that_could_be_read_in_two_ways_is_refused_with_line_and_column() {
     refuses(
         csv().replacen("\n1.5,", "\n1,5,", 1),
         &[],
-        ":386: 5 cells, but the header has 4",
+        ":386: the row has 5 cells, but the header has 4",
     );
     refuses(
         csv(),
         &["--header-line", "9999"],
-        ": --header-line 9999: the text has 2561 lines",
+        ": --header-line 9999: the file has only 2561 lines",
     );
     refuses(
         csv(),
         &["--channel", "stretch=x_mm-load_N"],
-        ":1: column `load_N`: has unit N; it must have unit mm, as `x_mm` does, so that the two can be added or subtracted",
+        ":1: column `load_N`: the column has unit N, but it must have unit mm, as `x_mm` has, so that the two can be added or subtracted",
     );
     refuses(
         csv()
             .replacen("\n1.5,", "\n1.5,NaN,", 1)
             .replacen("t,", "t,extra,", 1),
         &[],
-        ":2: 4 cells, but the header has 5",
+        ":2: the row has 4 cells, but the header has 5",
     );
 }
 

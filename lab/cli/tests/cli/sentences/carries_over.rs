@@ -29,7 +29,7 @@ fn a_model_whose_held_out_error_rises_is_not_to_be_used_on_other_data() {
     assert_eq!(closed.verdict(), "not-transferable");
     let told = closed.sentence();
     assert!(told.starts_with("The held-out error rises"), "{told}");
-    closed.says(&["do not use this model on other data", "raises the error"]);
+    closed.says(&["Do not use this model on other data", "raises the error"]);
     assert!(!told.contains("falls"), "{told}");
     // The same figures as on the line of errors.
     let percent = |part: &str| 100.0 * closed.json[part]["nrmse"]["held_out"].as_f64().unwrap();

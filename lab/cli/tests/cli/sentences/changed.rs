@@ -44,8 +44,8 @@ fn a_rig_that_slips_in_the_held_out_part_does_not_carry_over_from_then_on() {
     let closed = spring((21.0, 1.5), 0).close(&[]);
     assert_eq!(closed.json["verdict"], "not-transferable");
     closed.says(&[
-        "The model does not transfer: its error is ",
-        "from 21.",
+        "The model does not transfer. Its error is ",
+        "(after 21.",
         "Do not use",
     ]);
     let sound = spring((99.0, 0.0), 0).close(&[]);
@@ -106,7 +106,7 @@ fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
     let closed = joint();
     closed.says(&[
         "Nearly all of the model's output comes from `phi_d`",
-        "does it measure the output, as the angle behind a spring does?",
+        "Does `phi_d` measure the output, as an angle behind a spring does?",
     ]);
 }
 

@@ -32,7 +32,7 @@ fn a_law_that_ran_away_has_a_time_and_no_figures() {
     let lines: Vec<&str> = text.lines().filter(|l| l.starts_with("  pi ")).collect();
     assert_eq!(lines.len(), 2, "steady part and transient: {text}");
     for line in lines {
-        assert!(line.contains("–, ran away at 0."), "{line}");
+        assert!(line.contains("–, diverged at 0."), "{line}");
         assert!(!line.contains("0.0000"), "{line}");
     }
     let json: Value = serde_json::from_str(&run(&["--json"])).unwrap();

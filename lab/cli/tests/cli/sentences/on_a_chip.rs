@@ -36,7 +36,7 @@ fn what_firmware_loses_of_the_fit_is_told_with_both_errors() {
     // late by 2·atan(1/8) = 0.25 rad, an error of a quarter of the inertial force.
     assert!(fit < 1.0 && firmware > 5.0, "{fit} {firmware}");
     closed.says(&[&format!(
-        "In firmware, sample by sample with causal velocities, the held-out error is {firmware:.2} % instead of {fit:.2} %."
+        "In firmware (sample by sample, with causal velocities) the held-out error is {firmware:.2} % instead of {fit:.2} %."
     )]);
 }
 

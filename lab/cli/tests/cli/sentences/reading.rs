@@ -13,7 +13,7 @@ fn a_time_column_without_a_unit_and_with_long_steps_is_asked_about() {
     let closed = rows.close(&[]);
     let text = closed.text();
     assert!(
-        text.contains("median step is 2 s: is the unit ms?"),
+        text.contains("with a median step of 2 s; set --time '"),
         "{text}"
     );
     rows.header = format!("t [ms],{others}");

@@ -92,7 +92,7 @@ fn a_record_that_does_not_fit_the_model_is_refused_with_the_reason() {
     let line = refused(&["validate", &model, &other]);
     assert!(line.contains("the model is in torque mode"), "{line}");
     let line = refused(&["validate", &model, &record, "--mode", "displacement"]);
-    assert!(line.contains("the model is in torque mode"), "{line}");
+    assert!(line.contains("--mode must be torque"), "{line}");
 
     // What has nothing to do with the mode is not put down to it.
     for bad in [folder.file("empty.csv", ""), folder.path("missing.csv")] {
@@ -165,7 +165,7 @@ fn units_are_converted_or_refused() {
     let without = csv.replacen("t [s],x [mm],f [N]", "t,x,f", 1);
     let without = json(&folder.file("without.csv", without));
     assert_eq!(own["nrmse"], without["nrmse"]);
-    assert!(without["notes"].to_string().contains("states no units"));
+    assert!(without["notes"].to_string().contains("has no units"));
 
     for (header, word) in [
         ("t [s],x [V],f [N]", "unit V"),
@@ -177,7 +177,7 @@ fn units_are_converted_or_refused() {
         assert!(
             line.contains("wrong.csv")
                 && line.contains(word)
-                && line.contains("; it must have unit ")
+                && line.contains(", but it must have unit ")
                 && line.contains(", as in the model"),
             "{line}"
         );
@@ -242,7 +242,7 @@ fn a_model_whose_verdict_is_no_model_is_refused() {
     let none = folder.file("none.toml", toml::to_string(&table).unwrap().as_bytes());
     let line = refused(&["validate", &none, &record]);
     assert!(
-        line.contains("none.toml: its verdict is `no-input-dependence`"),
+        line.contains("none.toml: the model does not describe its own records (verdict `no-input-dependence`)"),
         "{line}"
     );
     said(&["validate", &model, &record]);

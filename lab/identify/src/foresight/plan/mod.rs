@@ -214,11 +214,11 @@ impl Aim {
         let (now, then) = (self.correlation_now, self.correlation_then);
         match &self.rival {
             Some(rival) => format!(
-                "{what} from {rival}: a wrong term has {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
+                "{what} from {rival}: the wrong term has {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
                 self.left_now, self.left_then
             ),
             None => format!(
-                "{what}: {:.1} times as visible as in the present record (share that other terms can imitate: {now:.3} → {then:.3})",
+                "{what}: {:.1} times as visible as in the present record (share that other terms can reproduce: {now:.3} → {then:.3})",
                 self.left_then
             ),
         }

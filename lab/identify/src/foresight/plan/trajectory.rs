@@ -215,11 +215,11 @@ impl Source<'_> {
         match kind {
             Kind::Slower => (
                 self.warped(2.0 * seconds, |_| 0.5),
-                "slower: the recorded motion at 0.5 times its speed".to_owned(),
+                "slower: the recorded motion at half its speed".to_owned(),
             ),
             Kind::Faster => (
                 self.warped(seconds, |_| 2.0),
-                "faster: the recorded motion at 2 times its speed, forward and backward".to_owned(),
+                "faster: the recorded motion at twice its speed, forward and backward".to_owned(),
             ),
             Kind::LargerStroke => (
                 self.scaled(|_| 1.5),
@@ -272,7 +272,9 @@ impl Source<'_> {
         };
         (
             self.warped(1.5 * self.seconds, pace),
-            format!("hold and wait: {go:.2} s of the recorded motion, then {hold:.2} s of rest, and so on"),
+            format!(
+                "hold and wait: {go:.2} s of the recorded motion and {hold:.2} s of rest, repeated"
+            ),
         )
     }
 }

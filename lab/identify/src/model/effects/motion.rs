@@ -46,7 +46,7 @@ pub(super) const MOTION: &[Entry] = &[
         name: "drag-cubic",
         rank: 13,
         tried: &[on(Place::Motion, AS_IT_IS)],
-        shown_by: "speeds up to the highest that the rig allows",
+        shown_by: "speeds up to the highest speed that the rig allows",
         ..PLAIN
     },
     // In no first scan: it lies between viscous and Coulomb friction, and the search asks of it

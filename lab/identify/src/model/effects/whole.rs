@@ -7,7 +7,7 @@ use super::{
 };
 
 // Motions that show several effects.
-const FASTER: &str = "faster motion: several tones up to the cut-off";
+const FASTER: &str = "faster motion: several sinusoids up to the cut-off frequency";
 const LONGER: &str = "a longer record";
 
 /// A lag slower than the motion is creep or drift under another name.
@@ -89,7 +89,7 @@ pub(super) const WHOLE: &[Entry] = &[
         declared: Declared::OnChannel(&[Number(0.3)]),
         bounds: &[Bounds::Number(0.03, 3.0)],
         on: &[On::Read, On::Reversal],
-        shown_by: "full strokes, and strokes that turn near the centre",
+        shown_by: "full strokes, and strokes that reverse near the centre",
         ..PLAIN
     },
     Entry {
@@ -109,7 +109,7 @@ pub(super) const WHOLE: &[Entry] = &[
         bounds: &[Bounds::FitSegment],
         several: true,
         of_the_record: Some(
-            "a step at one moment of this record; the model describes the time after the step",
+            "a step at one moment of this record (the model describes the time after the step)",
         ),
         shown_by: "the same amount of motion before and after the step",
         ..PLAIN
@@ -121,7 +121,7 @@ pub(super) const WHOLE: &[Entry] = &[
         declared: Declared::OnChannel(&[Middle]),
         bounds: &[Bounds::Held],
         zero: Zero::Sensor,
-        shown_by: "the same motion over a wider range of temperature",
+        shown_by: "the same motion over a wider temperature range",
         ..PLAIN
     },
     Entry {
@@ -136,7 +136,7 @@ pub(super) const WHOLE: &[Entry] = &[
         rank: 28,
         declared: Declared::Never,
         bounds: &[Bounds::Value(0.97, 1.03), Bounds::Phase],
-        of_the_record: Some("a function of time alone, with the phase of this record"),
+        of_the_record: Some("a function of time only, with the phase of this record"),
         shown_by: LONGER,
         told_by: ToldBy::Frequency,
         ..PLAIN
