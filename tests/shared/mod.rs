@@ -1,0 +1,69 @@
+//! What the tests of several binaries share.
+
+// Each binary uses some of it.
+#![allow(dead_code)]
+
+use proptest::prelude::*;
+
+/// The same with a change.
+pub fn with<S>(mut of: S, change: impl FnOnce(&mut S)) -> S {
+    change(&mut of);
+    of
+}
+
+/// Fails where two numbers are as far apart as this, or further.
+#[track_caller]
+pub fn near(got: f64, expected: f64, within: f64) {
+    let error = (got - expected).abs();
+    assert!(error < within, "{got} instead of {expected}, by {error:e}");
+}
+
+/// A number between two, spread evenly over its logarithm.
+pub fn over_decades(from: f64, to: f64) -> impl Strategy<Value = f64> {
+    (from.ln()..to.ln()).prop_map(f64::exp)
+}
+
+/// Any bit pattern, and often enough one that a sensor could give.
+pub fn any32() -> impl Strategy<Value = f32> {
+    prop_oneof![2 => -100.0..100.0_f32, 1 => any::<u32>().prop_map(f32::from_bits)]
+}
+
+/// The same number of cases, from the same seed in every run.
+pub fn seeded(cases: u32, seed: u64) -> ProptestConfig {
+    ProptestConfig {
+        failure_persistence: None,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(seed),
+        ..ProptestConfig::with_cases(cases)
+    }
+}
+
+/// Knuth's linear congruence: the same sequence in every run.
+pub struct Random(pub u64);
+
+impl Random {
+    /// From 0 to 1.
+    pub fn next(&mut self) -> f64 {
+        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+/// Reads back what was stored, and refuses it with one of these texts changed.
+#[cfg(feature = "serde")]
+pub fn reads_back<T>(value: &T, changed: &[(&str, &str)])
+where
+    T: serde::Serialize + serde::de::DeserializeOwned + PartialEq + std::fmt::Debug,
+{
+    let stored = serde_json::to_string(value).unwrap();
+    assert_eq!(&serde_json::from_str::<T>(&stored).unwrap(), value);
+    for (from, to) in changed {
+        let bad = stored.replacen(from, to, 1);
+        assert_ne!(bad, stored);
+        assert!(serde_json::from_str::<T>(&bad).is_err(), "{bad}");
+    }
+}
