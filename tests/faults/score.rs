@@ -1,11 +1,6 @@
 //! The score of bad samples, against one that is counted openly.
 
-use super::{law, pi};
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveState, Fallback, Fault, Pid, PidInput, PidSettings, PidState,
-    Status,
-};
-use proptest::prelude::*;
+use super::*;
 
 /// What happens between two looks at the score.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,19 +37,16 @@ struct Open {
 
 impl Open {
     fn new(fallback: Fallback<f64>) -> Self {
-        let (score, latched) = (0, false);
         Self {
             fallback,
-            score,
-            latched,
+            score: 0,
+            latched: false,
         }
     }
 
     fn take(&mut self, event: Event) {
         match event {
-            Event::Acknowledged if self.latched => {
-                (self.score, self.latched) = (0, false);
-            }
+            Event::Acknowledged if self.latched => (self.score, self.latched) = (0, false),
             _ if self.latched => {}
             Event::Acknowledged => {}
             Event::Good => self.score = self.score.saturating_sub(1),
@@ -77,22 +69,16 @@ fn any_fallback() -> impl Strategy<Value = Fallback<f64>> {
 /// Who resets whenever a sample is bad, against wind-up, must not reset the way to safety.
 #[test]
 fn a_reset_at_every_bad_sample_does_not_keep_the_safe_command_back() {
-    let pid = Pid::try_new(pi()).unwrap();
-    let mut state = PidState::new();
+    let (pid, mut state) = (pid(|_| ()), PidState::new());
     pid.step(&mut state, &PidInput::new(1e-3, 25.0, 24.0));
-    let after = pid.settings().fallback.after();
-    for k in 1..=after {
+    for k in 1..=20 {
         let out = pid.step(&mut state, &PidInput::new(1e-3, 25.0, f64::NAN));
-        assert_eq!(
-            out.status == Status::Safe(Fault::Measured),
-            k == after,
-            "{k}"
-        );
+        assert_eq!(out.status == Status::Safe(Fault::Measured), k == 20, "{k}");
         state.reset();
         assert_eq!(state.fault_counter(), 4 * k);
     }
     assert!(state.is_latched());
-    assert_eq!(Some(state.command()), pid.settings().fallback.command());
+    assert_eq!(state.command(), 0.0);
 }
 
 proptest! {
@@ -103,7 +89,7 @@ proptest! {
     ) {
         // A reference of -MAX beside a measurement of MAX: every number is one, their
         // difference is none.
-        let pid = Pid::try_new(PidSettings { fallback, ..pi() }).unwrap();
+        let pid = pid(|s| s.fallback = fallback);
         let (mut state, mut open) = (PidState::new(), Open::new(fallback));
         for event in events {
             if event == Event::Acknowledged {
@@ -124,8 +110,7 @@ proptest! {
         fallback in any_fallback(),
         lag in any::<bool>(),
     ) {
-        let settings = bowden::control::AdaptiveSettings { fallback, ..law(lag, 60.0) };
-        let law = Adaptive::try_new(settings).unwrap();
+        let law = forms(|s| s.fallback = fallback)[usize::from(lag)];
         let (mut state, mut open) = (AdaptiveState::new(&law), Open::new(fallback));
         for event in events {
             if event == Event::Acknowledged {

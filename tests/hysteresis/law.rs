@@ -1,8 +1,7 @@
 //! The state equation as it is printed, and along the path.
 
+use super::*;
 use bowden::hysteresis::law::{eta_rate, f};
-use bowden::hysteresis::BoucWen;
-use proptest::prelude::*;
 
 proptest! {
     /// `eta' = d·rho·|x'|·f(d·eta)`: the path does not contain time.

@@ -6,7 +6,8 @@
 mod feed_forwards;
 #[path = "../../proofs/properties/mod.rs"]
 mod properties;
-mod relay;
+#[path = "../shared/mod.rs"]
+mod shared;
 
 use bowden::control::*;
 use bowden::effect::{Delay, DragCubic, Effect, EffectState, Inputs, Motion, CATALOGUE};
@@ -16,11 +17,7 @@ use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
 use bowden::transmission::Transmission;
 use properties::{control, effect, signal, tracking};
 use proptest::prelude::*;
-
-/// Any bit pattern, and often enough one that a sensor could give.
-fn any_float() -> impl Strategy<Value = f32> {
-    prop_oneof![2 => -100.0..100.0_f32, 1 => any::<u32>().prop_map(f32::from_bits)]
-}
+use shared::{any32 as any_float, with};
 
 fn finite() -> impl Strategy<Value = f32> {
     any_float().prop_map(|x| if x.is_finite() { x } else { 1.0 })
@@ -30,16 +27,43 @@ fn sign() -> impl Strategy<Value = SmoothSign> {
     prop_oneof![Just(SmoothSign::Tanh), Just(SmoothSign::Clamp)]
 }
 
+/// At 1 kHz.
+const LAG: Form<f32> = Form::FirstOrder {
+    step: 0.001,
+    plant_gain: 1.0,
+};
+
 fn form() -> impl Strategy<Value = Form<f32>> {
-    prop_oneof![
-        Just(Form::AsPublished {
-            time_constant: 0.005
-        }),
-        Just(Form::FirstOrder {
-            step: 0.001,
-            plant_gain: 1.0
-        }),
-    ]
+    let time_constant = 0.005;
+    prop_oneof![Just(Form::AsPublished { time_constant }), Just(LAG)]
+}
+
+/// The law of Table 2 in any form, with beta_hat and delta_hat in their boxes.
+fn table_2<const N: usize>(
+    form: Form<f32>,
+    change: impl FnOnce(&mut AdaptiveSettings<f32, N>),
+) -> Adaptive<f32, N> {
+    let settings = AdaptiveSettings {
+        beta: Estimator::fixed(1.0).within(0.8, 1.2),
+        delta: Estimator::fixed(1.0).within(0.0, 4.0),
+        ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.05)
+    };
+    Adaptive::try_new(with(settings, change)).unwrap()
+}
+
+fn range(low: f32, high: f32) -> Limits<f32> {
+    Limits::try_new(low, high).unwrap()
+}
+
+/// The recursion of the errors of Table 2.
+fn recursion(smooth_sign: SmoothSign) -> LagRecursion<f32> {
+    let (gain, lambda, epsilon) = (24.0, 8.0, 0.05);
+    LagRecursion {
+        gain,
+        lambda,
+        epsilon,
+        smooth_sign,
+    }
 }
 
 /// delta of Theorem 1 for alpha = 1, theta = 0 and `|D| <= disturbance`: `sqrt(2·phi/theta)`.
@@ -63,7 +87,7 @@ proptest! {
         steps in prop::collection::vec((0.8..=1.2_f32, 0.0..=4.0_f32, -8.0..=8.0_f32), 1..300),
         worst in any::<bool>(),
     ) {
-        let law = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.05, smooth_sign: sign };
+        let law = recursion(sign);
         let mut at = ErrorState { s: start.0, z: start.1 };
         for (g, delta_hat, w) in steps {
             // The adversary pushes outwards with all that it has.
@@ -84,7 +108,7 @@ proptest! {
     ) {
         // What `bowden_bound::Theorem1` gives for Table 2, alpha = 1 and Delta = 7.056 N·m.
         let delta = theorem_1(Adaptive::paper().settings(), 7.056);
-        let law = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.05, smooth_sign: sign };
+        let law = recursion(sign);
         let mut at = ErrorState { s: start.0 * delta, z: start.1 * delta };
         for (g, delta_hat, w, xi) in steps {
             let by = Disturbance { g, delta_hat, w, xi };
@@ -103,12 +127,10 @@ proptest! {
         s in -0.43..=0.43_f32,
     ) {
         // |w| = |(g - 1)·r - D| <= 0.2·10 + 5 < 8.
-        let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
-            beta: Estimator::fixed(g).within(0.8, 1.2),
-            delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
-            smooth_sign: sign,
-            ..AdaptiveSettings::unlimited(Form::FirstOrder { step: 0.001, plant_gain: 1.0 }, 24.0, 8.0, 0.05)
-        }).unwrap();
+        let law = table_2::<0>(LAG, |s| {
+            (s.beta.initial, s.smooth_sign) = (g, sign);
+            s.delta = s.delta.adapting(6e-3, 0.01);
+        });
         let plant = tracking::StaticPlant { gain: 1.0, disturbance };
         // z = 0, and the command that gives this error.
         let at = AdaptiveInput::new(0.001, reference, reference + s, []);
@@ -180,7 +202,7 @@ proptest! {
         low in -1e3..0.0_f32, width in 1e-3..1e3_f32, slew in 1e-3..1e6_f32,
         last in finite(), wanted in finite(), dt in 1e-6..10.0_f32,
     ) {
-        let limits = Limits::try_new(low, low + width).unwrap();
+        let limits = range(low, low + width);
         prop_assert!(control::limits_are_kept(&limits, last, wanted, dt));
         let limits = limits.with_slew(slew).unwrap();
         prop_assert!(control::limits_are_kept(&limits, last, wanted, dt));
@@ -199,7 +221,7 @@ proptest! {
             setpoint_weight,
             deadband: deadband.max(0.0),
             anti_windup: if clamp { AntiWindup::Clamp } else { AntiWindup::Conditional },
-            limits: Limits::try_new(low, low + width).unwrap(),
+            limits: range(low, low + width),
             ..PidSettings::unlimited(k_p, k_i)
         }).unwrap();
         let mut state = PidState::new();
@@ -218,19 +240,16 @@ proptest! {
         samples in prop::collection::vec(prop::array::uniform5(any_float()), 1..50),
         form in form(),
     ) {
-        let limits = Limits::try_new(-20.0, 60.0).unwrap().with_slew(1e4).unwrap();
+        let limits = range(-20.0, 60.0).with_slew(1e4).unwrap();
         let fallback = Fallback::try_new(3, -2.0).unwrap();
         let pid = Pid::try_new(PidSettings {
             k_d: 2.0, derivative_time: 0.1, limits, fallback, ..PidSettings::unlimited(30.0, 18.0)
         }).unwrap();
-        let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
-            beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
-            delta: Estimator::fixed(1.0).within(0.0, 4.0).adapting(6e-3, 0.01),
-            theta: [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
-            limits,
-            fallback,
-            ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.05)
-        }).unwrap();
+        let law = table_2::<1>(form, |s| {
+            (s.beta, s.delta) = (s.beta.adapting(2.5e-4, 0.01), s.delta.adapting(6e-3, 0.01));
+            s.theta = [Estimator::fixed(0.0).within(-5.0, 5.0).adapting(5e-4, 0.01)];
+            (s.limits, s.fallback) = (limits, fallback);
+        });
         let (mut state, mut adapted) = (PidState::new(), AdaptiveState::new(&law));
         for [dt, reference, measured, x, feed_forward] in samples {
             // Mostly a millisecond, so that samples are good ones.
@@ -248,12 +267,9 @@ proptest! {
     fn the_lag_does_not_pass_its_target(
         samples in prop::collection::vec((1e-5..=1e-3_f32, -50.0..50.0_f32, -50.0..50.0_f32), 1..100),
     ) {
-        let form = Form::FirstOrder { step: 0.001, plant_gain: 1.0 };
-        let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
-            beta: Estimator::fixed(1.0).within(1.0, 1.0),
-            delta: Estimator::fixed(1.0).within(0.0, 1.0),
-            ..AdaptiveSettings::unlimited(form, 24.0, 8.0, 0.05)
-        }).unwrap();
+        let law = table_2::<0>(LAG, |s| {
+            (s.beta, s.delta) = (s.beta.within(1.0, 1.0), s.delta.within(0.0, 1.0));
+        });
         let mut state = AdaptiveState::new(&law);
         for (dt, reference, measured) in samples {
             // Without limits and feed-forward the command that is out is the lag's.
@@ -274,15 +290,15 @@ proptest! {
         safe: bool,
         samples in prop::collection::vec(prop::array::uniform4(any_float()), 1..40),
     ) {
-        let limits = |most: f32| Limits::try_new(-most, most).unwrap();
+        let limits = |most: f32| range(-most, most);
         let fallback = |most: f32| match safe {
             true => Fallback::try_new(3, most).unwrap(),
             false => Fallback::hold_indefinitely(),
         };
-        let law = |most: f32| Adaptive::<f32, 1>::try_new(AdaptiveSettings {
-            beta: Estimator::fixed(1.0).within(0.8, 1.2).adapting(2.5e-4, 0.01),
-            ..AdaptiveSettings::new(form, 24.0, 8.0, 0.05, limits(most), 0.005, fallback(most))
-        }).unwrap();
+        let law = |most: f32| table_2::<1>(form, |s| {
+            (s.beta, s.delta) = (s.beta.adapting(2.5e-4, 0.01), Estimator::fixed(0.0));
+            (s.limits, s.longest_dt, s.fallback) = (limits(most), 0.005, fallback(most));
+        });
         let pid = |most: f32| Pid::try_new(
             PidSettings::new(3.0, 30.0, limits(most), 0.005, fallback(most))
         ).unwrap();
@@ -307,8 +323,7 @@ proptest! {
         after in 1_u32..20, weight in 1_u32..9, samples in prop::collection::vec(any::<bool>(), 1..200)
     ) {
         let fallback = Fallback::try_new(after, 0.0).unwrap().with_weight(weight).unwrap();
-        let limits = Limits::try_new(-9.0, 9.0).unwrap();
-        let pid = Pid::try_new(PidSettings::new(3.0, 30.0, limits, 0.005, fallback)).unwrap();
+        let pid = Pid::try_new(PidSettings::new(3.0, 30.0, range(-9.0, 9.0), 0.005, fallback)).unwrap();
         let (mut state, mut margin) = (PidState::new(), 0);
         for is_bad in samples {
             let before = state.fault_counter();
@@ -330,13 +345,7 @@ proptest! {
         for _ in 0..samples {
             quiet.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 25.0, 20.0, [0.1, 0.0]));
         }
-        let eager = Adaptive::<f32, 2>::try_new(AdaptiveSettings {
-            beta: Estimator::fixed(1.0).within(0.8, 1.2),
-            delta: Estimator::fixed(1.0).within(0.0, 4.0),
-            z_limit: 0.5,
-            limits: Limits::try_new(-5.0, high).unwrap(),
-            ..AdaptiveSettings::unlimited(form, 12.0, 8.0, 0.05)
-        }).unwrap();
+        let eager = table_2::<2>(form, |s| (s.gain, s.z_limit, s.limits) = (12.0, 0.5, range(-5.0, high)));
         let [dt, reference, measured, x, feed_forward] = at;
         let input = AdaptiveInput {
             feed_forward, ..AdaptiveInput::new(dt, reference, measured, [x, 0.0])
@@ -348,14 +357,8 @@ proptest! {
     fn a_start_keeps_the_command_that_is_out(
         at in prop::array::uniform6(any_float()), high in 5.0..60.0_f32, form in form(),
     ) {
-        let limits = Limits::try_new(-5.0, high).unwrap();
-        let law = Adaptive::<f32, 1>::try_new(AdaptiveSettings {
-            beta: Estimator::fixed(1.0).within(0.8, 1.2),
-            delta: Estimator::fixed(1.0).within(0.0, 4.0),
-            z_limit: 0.5,
-            limits,
-            ..AdaptiveSettings::unlimited(form, 12.0, 8.0, 0.05)
-        }).unwrap();
+        let limits = range(-5.0, high);
+        let law = table_2::<1>(form, |s| (s.gain, s.z_limit, s.limits) = (12.0, 0.5, limits));
         let [output, dt, reference, measured, x, feed_forward] = at;
         let input = AdaptiveInput {
             feed_forward, ..AdaptiveInput::new(dt, reference, measured, [x])
@@ -418,22 +421,10 @@ proptest! {
 #[test]
 fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyond() {
     let g = 0.8_f32;
-    let law = Adaptive::<f32, 0>::try_new(AdaptiveSettings {
-        beta: Estimator::fixed(g).within(0.8, 1.2),
-        delta: Estimator::fixed(0.0).within(0.0, 4.0),
-        frozen: true,
-        smooth_sign: SmoothSign::Clamp,
-        ..AdaptiveSettings::unlimited(
-            Form::FirstOrder {
-                step: 0.001,
-                plant_gain: 1.0,
-            },
-            24.0,
-            8.0,
-            0.05,
-        )
-    })
-    .unwrap();
+    let law = table_2::<0>(LAG, |s| {
+        (s.beta.initial, s.delta.initial) = (g, 0.0);
+        (s.frozen, s.smooth_sign) = (true, SmoothSign::Clamp);
+    });
     // The largest |s| and lambda·|z| in 20 s, from rest at e = 0.
     let reached = |reference: f32, disturbance: f32| {
         let at = AdaptiveInput::new(0.001, reference, reference, []);
@@ -441,10 +432,8 @@ fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyon
         let mut most = 0.0_f32;
         for _ in 0..20_000 {
             let measured = state.command() - disturbance;
-            let out = law.step_with_terms(
-                &mut state,
-                &AdaptiveInput::new(0.001, reference, measured, []),
-            );
+            let at = AdaptiveInput::new(0.001, reference, measured, []);
+            let out = law.step_with_terms(&mut state, &at);
             most = most.max(out.terms.s.abs());
         }
         most
@@ -459,12 +448,7 @@ fn a_disturbance_in_its_bound_leaves_the_box_where_w_with_the_reference_is_beyon
 /// The other half of the claim: it is about starts inside of the box.
 #[test]
 fn a_start_outside_of_the_box_is_outside_for_a_while() {
-    let law = LagRecursion {
-        gain: 24.0,
-        lambda: 8.0,
-        epsilon: 0.05,
-        smooth_sign: SmoothSign::Clamp,
-    };
+    let law = recursion(SmoothSign::Clamp);
     let by = Disturbance {
         g: 0.8,
         delta_hat: 0.0,
@@ -472,10 +456,8 @@ fn a_start_outside_of_the_box_is_outside_for_a_while() {
         xi: 0.0,
     };
     // |s| is in its range, |z| = 10 N·m·s is not: 0.43/lambda is 0.054.
-    let mut at = ErrorState {
-        s: 0.43_f32,
-        z: -10.0,
-    };
+    let (s, z) = (0.43_f32, -10.0);
+    let mut at = ErrorState { s, z };
     let mut most = 0.0_f32;
     for _ in 0..5_000 {
         at = law.step(at, 0.001, &by);

@@ -1,12 +1,10 @@
 //! Configurations in flash: one of each compiles, and is what the run time makes.
 #![allow(clippy::unnecessary_cast)]
 
+use super::*;
 use bowden::hysteresis::BoucWen;
-use bowden::signal::{Biquad, Derivative, EdgeVelocity, LowPass, Plausible, Play, Ramp, Rates};
 use bowden::transmission::Transmission;
-use bowden::Error;
 use bowden::{constant, Constant};
-use proptest::prelude::*;
 use std::fmt::Debug;
 
 /// The same statics and the same comparisons in both floats.
