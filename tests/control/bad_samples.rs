@@ -88,39 +88,6 @@ fn a_velocity_that_nobody_reads_may_be_anything() {
 }
 
 #[test]
-fn the_safe_command_goes_out_at_the_stated_sample_and_the_slew_rate_starts_from_it() {
-    let pid = pid(10.0, 20.0, |s| {
-        s.fallback = Fallback::try_new(3, -2.0).unwrap();
-        s.limits = range(-5.0, 15.0).with_slew(1000.0).unwrap();
-    });
-    let mut state = PidState::new();
-    for _ in 0..10 {
-        pid.step(&mut state, &good());
-    }
-    let (held, safe) = (Status::Held(Fault::Measured), Status::Safe(Fault::Measured));
-    for status in [held, held, safe, safe, safe] {
-        let out = pid.step(&mut state, &lost());
-        assert_eq!(out.status, status);
-        assert!(if status == held {
-            out.command > 2.0
-        } else {
-            out.command == -2.0
-        });
-    }
-    state.acknowledge();
-    // The first good sample starts from it, the slew rate goes on: 1000/s for 1 ms.
-    assert_eq!(pid.step(&mut state, &good()).command, -2.0);
-    let up = with(good(), |at| at.feed_forward = 10.0);
-    assert_eq!(pid.step(&mut state, &up).command, -1.0);
-}
-
-#[test]
-fn before_the_first_good_sample_the_command_is_within_the_limits_too() {
-    let pid = pid(10.0, 20.0, |s| s.limits = range(3.0, 15.0));
-    assert_eq!(pid.step(&mut PidState::new(), &lost()).command, 3.0);
-}
-
-#[test]
 fn the_derivative_bridges_the_gap_that_bad_samples_leave() {
     // A ramp of 3/s, unfiltered: the rate after ten lost samples is still 3.
     let pid = pid(0.0, 0.0, |s| {

@@ -47,32 +47,6 @@ fn a_start_reads_no_dt() {
 }
 
 #[test]
-fn a_start_at_each_good_sample_does_not_keep_the_safe_command_back() {
-    let pid = pid(10.0, 20.0, |s| {
-        s.fallback = Fallback::try_new(20, -3.0).unwrap()
-    });
-    let (mut state, good) = (PidState::new(), PidInput::new(DT, 1.0, 1.0));
-    let bad = with(good, |at| at.measured = f64::NAN);
-    // A bad sample counts four times as much as a good one takes away, and only steps take away.
-    let first = (1..100).find(|_| {
-        let command = state.command();
-        state.resume_from(&pid, command, &good);
-        pid.step(&mut state, &bad).status == Status::Safe(Fault::Measured)
-    });
-    assert_eq!((first, state.command()), (Some(20), -3.0));
-}
-
-#[test]
-fn a_start_outside_the_limits_begins_at_the_limit() {
-    let (pid, mut state) = (
-        pid(10.0, 20.0, |s| s.limits = range(-5.0, 15.0)),
-        PidState::new(),
-    );
-    state.resume_from(&pid, 1e6, &PidInput::new(DT, 1.0, 1.0));
-    assert_eq!((state.command(), state.integral()), (15.0, 15.0));
-}
-
-#[test]
 fn a_start_from_something_that_is_no_number_is_refused_and_told() {
     let pid = Pid::paper_piv();
     let mut state = after(&pid, 1);

@@ -6,7 +6,6 @@ fn law(k_p: f64, k_i: f64) -> Pid<f64> {
     pid(k_p, k_i, |s| s.limits = range(-20.0, 60.0))
 }
 
-/// A drive that was off for two seconds, while the law went on.
 #[test]
 fn after_the_drive_was_off_the_command_starts_from_what_went_out() {
     for anti_windup in WINDUPS {

@@ -121,20 +121,6 @@ fn the_filter_is_fejers_kernel_without_a_phase() {
     near(fejer(39, std::f64::consts::TAU * 0.32 / 40.0), 0.71, 0.005);
 }
 
-#[test]
-fn an_error_is_learned_as_many_cells_before_as_the_lead_says() {
-    let learning = learning(2.0, 3, 2);
-    let mut state = started(&learning, 50);
-    pass(&learning, &mut state, (0, 50), |cell, _| {
-        f64::from(cell == 20)
-    });
-    for (cell, learned) in state.learned().iter().enumerate() {
-        // A triangle of area 2 around cell 17.
-        let expected = (3.0 - (cell as f64 - 17.0).abs()).max(0.0) * 2.0 / 9.0;
-        near(*learned, expected, 1e-15);
-    }
-}
-
 /// A plant that answers at once, `y = a·(u + d)` against a reference of one: what is left is
 /// `(1 − gain·a)` of the error before.
 #[test]
@@ -156,18 +142,6 @@ fn a_static_plant_is_learned_by_a_geometric_series() {
             },
         );
     }
-}
-
-#[test]
-fn what_is_forgotten_leaves_an_error() {
-    let (a, gain, forgetting) = (0.6, 0.5, 0.1);
-    let learning = learning(gain, 0, 0).with_forgetting(forgetting).unwrap();
-    let mut state = started(&learning, 20);
-    pass(&learning, &mut state, (0, 20 * 100), |_, own| 1.0 - a * own);
-    // u = (1 − f)·u + g·(1 − a·u).
-    let expected = gain / (forgetting + gain * a);
-    // (1 − f − g·a)^100 = 2e-22 of it is left.
-    assert!(state.learned().iter().all(|u| (u - expected).abs() < 1e-12));
 }
 
 #[test]

@@ -119,18 +119,6 @@ fn a_latency_that_is_told_is_no_disturbance() {
 }
 
 #[test]
-fn the_estimate_stops_at_its_limit_and_comes_back_at_once() {
-    let push = |t: f64| if (1.0..2.0).contains(&t) { 30.0 } else { 0.0 };
-    let all = run(&observer(0.016, 5.0), 0, push);
-    assert_eq!(
-        all.iter().fold(0.0_f64, |most, (_, d)| most.max(d.abs())),
-        5.0
-    );
-    // The lags never saw the limit: 30·(1 + x)·e^(−x) at x = 0.15/0.016.
-    near(all[21_500].1, 0.0, 0.05);
-}
-
-#[test]
 fn a_bad_sample_holds_and_its_time_is_made_up_for() {
     let observer = observer(0.016, 100.0);
     let mut whole = ObserverState::new();

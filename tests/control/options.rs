@@ -40,7 +40,6 @@ fn a_turn_of_the_sensor_does_not_kick_the_derivative() {
     }
 }
 
-/// A closed loop through the wrap: it turns by 2, not by 358.
 #[test]
 fn a_wrapped_loop_reaches_its_reference_through_the_wrap() {
     let pid = pid(5.0, 2.0, |s| s.period = Some(360.0));

@@ -50,31 +50,6 @@ fn with_beta_hat_at_zero_a_resumed_law_says_what_it_can() {
 }
 
 #[test]
-fn after_the_safe_command_both_forms_go_on_from_it() {
-    for settings in both() {
-        let law = law(settings, |s| {
-            s.limits = range(-100.0, 100.0).with_slew(1000.0).unwrap();
-            s.fallback = Fallback::try_new(3, -20.0).unwrap();
-        });
-        let (mut state, good) = (AdaptiveState::new(&law), at(3.0, 2.9, 0.0));
-        for _ in 0..100 {
-            law.step(&mut state, &good);
-        }
-        let held = (Status::Held(Fault::Measured), state.command());
-        let safe = (Status::Safe(Fault::Measured), -20.0);
-        for expected in [held, held, safe, safe, safe, safe, safe] {
-            let output = law.step(&mut state, &lost(good));
-            assert_eq!((output.status, output.command), expected);
-        }
-        state.acknowledge();
-        let output = law.step(&mut state, &good);
-        assert_eq!(output.status, Status::Good);
-        assert!((output.command + 20.0).abs() <= 1.0 + 1e-12, "{output:?}");
-        assert!(law.step(&mut state, &good).command > -20.0);
-    }
-}
-
-#[test]
 fn a_reset_is_a_new_state_at_the_command_that_is_out() {
     for form in both() {
         let law = law(form, |s| {

@@ -128,33 +128,6 @@ fn against_a_limit_nothing_winds_up_and_the_command_comes_back_at_once() {
 }
 
 #[test]
-fn a_frozen_law_keeps_its_estimates_and_integrates_all_the_same() {
-    let law = law(literal(), |s| s.frozen = true);
-    let mut state = AdaptiveState::new(&law);
-    for _ in 0..100 {
-        law.step(&mut state, &at(3.0, 1.0, 1.0));
-    }
-    assert_eq!(estimates(&state), [1.0, 1.0, 0.0]);
-    near(state.accumulated_error(), -0.2, 1e-15);
-}
-
-#[test]
-fn the_feed_forward_is_added_to_the_command_in_either_form() {
-    for settings in both() {
-        let law = law(settings, |_| ());
-        let (mut with_it, mut without) = (AdaptiveState::new(&law), AdaptiveState::new(&law));
-        for step in 0..20 {
-            let plain = at(3.0, 0.1 * f64::from(step), 0.2);
-            let fed = with(plain, |at| at.feed_forward = 2.5 * f64::from(step % 3));
-            let a = law.step_with_terms(&mut with_it, &fed);
-            let b = law.step_with_terms(&mut without, &plain);
-            assert_eq!(a.terms.law, b.terms.law);
-            assert_eq!(a.command, b.command + fed.feed_forward);
-        }
-    }
-}
-
-#[test]
 fn either_smooth_sign_is_odd_bounded_and_no_steeper_than_one() {
     for sign in [SmoothSign::Tanh, SmoothSign::Clamp] {
         let mut worst = 0.0_f64;

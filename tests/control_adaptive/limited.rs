@@ -21,39 +21,6 @@ fn after_the_safe_command_the_lag_goes_on_from_it_less_the_feed_forward() {
 }
 
 #[test]
-fn at_a_limit_the_accumulated_error_waits_on_the_error_and_the_estimates_wait_on_s() {
-    for settings in both() {
-        // The error falls from 1 N·m to -0.1 N·m in 1.1 s: z is 0.5 N·m·s then.
-        let free = law(settings, |_| ());
-        let mut state = AdaptiveState::new(&free);
-        for step in 0..1100 {
-            free.step(&mut state, &at(3.0, 4.0 - 0.001 * f64::from(step), 0.3));
-        }
-        let law = law(settings, |s| s.limits = range(-1.0, 1.0));
-        let before = state;
-        // e = -0.1 asks for less of what the limit cuts, s = -0.1 + 8·0.5 for more.
-        let out = law.step_with_terms(&mut state, &at(3.0, 2.9, 0.3));
-        assert!(out.terms.limited && out.command == -1.0, "{out:?}");
-        assert!(out.terms.error < 0.0 && out.terms.s > 0.0);
-        let moved = state.accumulated_error() - before.accumulated_error();
-        near(moved, -1e-4, ROUNDING);
-        assert_eq!(estimates(&state), estimates(&before));
-    }
-}
-
-#[test]
-fn at_a_limit_the_lag_keeps_the_command_less_the_feed_forward() {
-    let law = law(lag(), |s| s.limits = range(-5.0, 5.0));
-    let mut state = AdaptiveState::new(&law);
-    let at = with(at(30.0, 20.0, 0.0), |at| at.feed_forward = 4.0);
-    assert!(law.step_with_terms(&mut state, &at).terms.limited);
-    assert_eq!(state.command(), 5.0);
-    let terms = law.step_with_terms(&mut state, &at).terms;
-    // The law's share of the 5 that are out is 1.
-    near(terms.law, lagged(1.0, &terms), ROUNDING);
-}
-
-#[test]
 fn a_literal_law_that_takes_over_does_not_take_the_old_rate_of_the_error() {
     let from = law(literal(), |_| ());
     let mut state = AdaptiveState::new(&from);

@@ -311,7 +311,6 @@ fn any_law_of_the_lag_form_reaches_one_limit_and_then_the_other() {
     every_law_travels(true);
 }
 
-/// A NaN encoder for a second: its estimate, and those of the others, wait; then all move again.
 #[test]
 fn estimates_that_a_dropped_regressor_held_move_again_with_the_first_good_sample() {
     for settings in both() {
@@ -320,10 +319,15 @@ fn estimates_that_a_dropped_regressor_held_move_again_with_the_first_good_sample
         law.step(&mut state, &at(3.0, 2.9, 0.3));
         let held = estimates(&state);
         for k in 0..1000 {
-            let status = law.step(&mut state, &at(3.0, 2.9, f64::NAN)).status;
-            assert_eq!(status, Status::Degraded(Fault::Regressor(0)), "{k}");
-            assert_eq!(estimates(&state), held);
+            // The law without that term.
+            let wanted = law.terms(&state, &at(3.0, 2.9, 0.0)).unlimited;
+            let out = law.step(&mut state, &at(3.0, 2.9, f64::NAN));
+            assert_eq!(out.status, Status::Degraded(Fault::Regressor(0)), "{k}");
+            assert_eq!((out.command, estimates(&state)), (wanted, held));
         }
+        // The torque sensor is not an encoder.
+        let deaf = law.step(&mut state.clone(), &lost(at(3.0, 2.9, f64::NAN)));
+        assert_eq!(deaf.status, Status::Held(Fault::Measured));
         // The loop is closed all the time: -0.1 N·m for 1.001 s.
         near(state.accumulated_error(), -0.1001, 1e-12);
         let status = law.step(&mut state, &at(3.0, 2.9, 0.3)).status;
@@ -342,6 +346,8 @@ fn estimates_that_were_frozen_move_again_with_the_first_sample_of_a_law_that_is_
             frozen.step(&mut state, &at);
         }
         assert_eq!(estimates(&state), start);
+        // z integrates all the same: -0.1 N·m for 1 s.
+        near(state.accumulated_error(), -0.1, 1e-12);
         free.step(&mut state, &at);
         assert!((0..3).all(|i| estimates(&state)[i] != start[i]));
     }

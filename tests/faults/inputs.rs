@@ -4,11 +4,9 @@ use super::*;
 use bowden::signal::{Implausible, Plausible, PlausibleState, Ramp, RampState};
 use bowden::{constant, Constant};
 
-fn plausible(rate: f64) -> Plausible<f64> {
-    Plausible::try_new(-10.0, 10.0)
-        .unwrap()
-        .with_rate(rate)
-        .unwrap()
+fn plausible() -> Plausible<f64> {
+    let range = Plausible::try_new(-10.0, 10.0).unwrap();
+    range.with_rate(100.0).unwrap()
 }
 
 #[test]
@@ -40,7 +38,7 @@ fn a_reset_encoder_does_not_move_the_estimates() {
 
 #[test]
 fn a_sample_is_plausible_within_its_range_and_its_rate() {
-    let (plausible, mut state) = (plausible(100.0), PlausibleState::new());
+    let (plausible, mut state) = (plausible(), PlausibleState::new());
     let mut fault = |sample: f64, dt: f64| plausible.step(&mut state, sample, dt, true).fault;
     let not = Some(Implausible::NotFinite);
     for (sample, dt, expected) in [
@@ -52,10 +50,6 @@ fn a_sample_is_plausible_within_its_range_and_its_rate() {
     ] {
         assert_eq!(fault(sample, dt), expected);
     }
-    // A signal that has really moved is taken up again: 1 in 10 ms.
-    let waits = (0..20).take_while(|_| fault(8.0, DT).is_some()).count();
-    assert_eq!(waits, 5);
-    assert_eq!(fault(8.1, DT), None);
     // After a gap of unknown length it may be anywhere in the range.
     assert_eq!(fault(f64::NAN, f64::NAN), not);
     assert_eq!(fault(-9.0, DT), None);
@@ -63,9 +57,16 @@ fn a_sample_is_plausible_within_its_range_and_its_rate() {
 
 #[test]
 fn a_dt_of_zero_is_no_time_and_one_that_cannot_be_used_an_unknown_or_the_longest() {
-    let plausible = plausible(100.0);
+    let plausible = plausible();
     let bounded = plausible.with_longest_dt(0.005).unwrap();
-    for dt in [-0.001, -4295.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    for dt in [
+        4295.0,
+        -0.001,
+        -4295.0,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+    ] {
         let (mut of_any, mut of_longest) = (PlausibleState::new(), PlausibleState::new());
         for (own, state) in [(&plausible, &mut of_any), (&bounded, &mut of_longest)] {
             own.step(state, 1.0, 0.001, true);
@@ -200,11 +201,10 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
 
 /// The controller refuses a counter's wrap; the reference before it must not have moved on.
 #[test]
-fn a_wrapped_counter_moves_neither_the_ramp_nor_what_is_plausible() {
+fn a_wrapped_counter_does_not_move_a_ramp_with_a_longest_dt() {
     let ramp = Ramp::try_new(50.0, 0.02).unwrap();
-    let mut state = RampState::at(0.0);
     // Without a longest dt the ramp arrives.
-    assert!(ramp.step(&mut state, 25.0, 4295.0) > 24.9);
+    assert!(ramp.step(&mut RampState::at(0.0), 25.0, 4295.0) > 24.9);
     let ramp = ramp.with_longest_dt(0.005).unwrap();
     let mut state = RampState::at(0.0);
     ramp.step(&mut state, 25.0, 0.001);
@@ -213,14 +213,4 @@ fn a_wrapped_counter_moves_neither_the_ramp_nor_what_is_plausible() {
     assert_eq!(state, before);
     assert!(ramp.with_longest_dt(0.0).is_err() && ramp.with_longest_dt(f64::NAN).is_err());
     assert!(Ramp::try_new(0.0, 0.0).is_err() && Ramp::try_new(1.0, -1.0).is_err());
-
-    let plausible = plausible(50.0).with_longest_dt(0.005).unwrap();
-    let mut state = PlausibleState::new();
-    for k in 0..50 {
-        let sample = 0.5 + 1e-3 * f64::from(k);
-        assert_eq!(plausible.step(&mut state, sample, 0.001, true).fault, None);
-    }
-    let spike = plausible.step(&mut state, 9.5, 4295.0, true);
-    assert_eq!(spike.fault, Some(Implausible::TooFast));
-    assert_eq!(plausible.step(&mut state, 0.55, 0.001, true).fault, None);
 }

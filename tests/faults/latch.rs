@@ -165,6 +165,18 @@ fn nine_bad_samples_of_ten_are_too_many_and_one_in_a_hundred_is_no_reason_to_sto
 }
 
 #[test]
+fn a_wrapped_counter_is_no_sample_and_the_longest_dt_that_was_stated_is_one() {
+    for mut law in every_law() {
+        let (before, _) = law.run(&good(), 1);
+        let wrapped = law.run(&with(good(), |at| at.dt = 4295.0), 1);
+        assert_eq!(wrapped, (before, Status::Held(Fault::DtTooLong)));
+    }
+    let mut law = Running::new(pid(|_| ()));
+    let late = with(good(), |at| at.dt = LONGEST);
+    assert_eq!(law.run(&late, 1).1, Status::Good);
+}
+
+#[test]
 fn without_an_integral_gain_no_old_command_stays_in_the_sum() {
     let mut law = Running::new(pid(|s| s.k_i = 0.0));
     let (before, _) = law.run(&good(), 10);

@@ -3,12 +3,11 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
-mod adaptive;
 #[cfg(feature = "serde")]
 mod flash;
 mod inputs;
 mod latch;
-mod pid;
+mod laws;
 mod score;
 #[path = "../shared/mod.rs"]
 mod shared;

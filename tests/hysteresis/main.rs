@@ -223,23 +223,6 @@ fn the_general_step_agrees_with_the_closed_forms_next_to_them() {
     }
 }
 
-#[test]
-fn the_slope_is_the_right_side_of_the_equation() {
-    let mut random = Random(5);
-    for (rho, sigma, n, _) in SETS {
-        let shape = shape(rho, sigma, n);
-        for _ in 0..200 {
-            let eta = 2.0 * random.next() - 1.0;
-            for direction in [1.0, -1.0] {
-                let expected = direction * right_side(&shape, eta, direction);
-                let steepest = rho * 2.0 * sigma;
-                // Both are sums of terms as large as the steepest slope.
-                near(shape.slope(eta, direction), expected, 1e-13 * steepest);
-            }
-        }
-    }
-}
-
 /// Compares the sensitivities of the step that `T` takes, this one in `f64`, with its differences.
 fn assert_sensitivities<T: Real>(sets: &[(f64, f64, f64)], seed: u64, step: Step, tolerance: f64) {
     let mut random = Random(seed);

@@ -180,11 +180,15 @@ fn an_output_that_overflows_where_no_effect_is_added_to_it_is_finite() {
 fn the_three_lists_above_hold_the_whole_catalogue() {
     fn names<const N: usize>(terms: impl Terms<f64, N>) -> Vec<&'static str> {
         let model = FixedModel::try_new(None, terms).unwrap().to_model();
-        model
-            .terms()
-            .iter()
-            .map(|term| term.effect.name())
-            .collect()
+        let effects = model.terms().iter().map(|term| term.effect);
+        let name = |effect: Effect<f64>| {
+            // Made by its own type, as generated firmware does, it is the one of its name.
+            let shapes: Vec<f64> = (0..).map_while(|index| effect.shape(index)).collect();
+            let named = Effect::try_from_name(effect.name(), &shapes);
+            assert_eq!(named, Ok(effect));
+            effect.name()
+        };
+        effects.map(name).collect()
     }
     let all = [
         names(plain()),

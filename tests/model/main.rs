@@ -165,16 +165,26 @@ fn spoil<'a>(good: Sample<'a, f64>, how: usize, bad: f64) -> Sample<'a, f64> {
 
 proptest! {
     #[test]
-    fn the_output_is_the_transmission_plus_the_terms_and_then_the_stages(record in record()) {
+    fn the_output_is_the_transmission_plus_the_terms_and_then_the_stages_and_the_shares_add_up(record in record()) {
         let model = Model::<f64, 8>::try_new(Some(cable()), &several()).unwrap();
-        let mut state = ModelState::new();
+        let (mut state, mut silent, mut own) = (ModelState::new(), ModelState::new(), BoucWenState::new());
         let shape = *cable::<f64>().shape();
         let by_hand = by_hand(&record, |eta, change| shape.advance(eta, change));
         for (row, (late, eta, time)) in record.iter().zip(by_hand) {
-            assert_relative_eq!(model.step(&mut state, &sample(row)), late, epsilon = 1e-12);
+            let (mut shares, mut order) = ([f64::NAN; 7], vec![]);
+            let output = model.step_with(&mut state, &sample(row), |index, share| {
+                shares[index] = share;
+                order.push(index);
+            });
+            assert_relative_eq!(output, late, epsilon = 1e-12);
             assert_relative_eq!(state.eta(), eta);
             assert_relative_eq!(state.time(), time, epsilon = 1e-12);
             prop_assert!(state.output() == late || (state.output() - late).abs() < 1e-12);
+            let force = cable().step(&mut own, row.1.position);
+            assert_relative_eq!(force + shares.iter().sum::<f64>(), output, epsilon = 1e-12);
+            prop_assert_eq!(order, [0, 2, 3, 5, 6, 1, 4]); // output stages last, in their order
+            prop_assert_eq!(output, model.step(&mut silent, &sample(row)));
+            prop_assert_eq!(state, silent);
         }
     }
 
@@ -195,25 +205,6 @@ proptest! {
             // x + (play − x) is the play but for one rounding.
             assert_relative_eq!(output, force + 0.3 * at.input.velocity, epsilon = 1e-12);
             prop_assert_eq!(order, [0]); // what the play does belongs to the transmission
-        }
-    }
-
-    #[test]
-    fn the_shares_and_the_transmission_add_up_to_the_output(record in record()) {
-        let model = Model::<f64, 8>::try_new(Some(cable()), &several()).unwrap();
-        let (mut state, mut silent, mut eta) = (ModelState::new(), ModelState::new(), BoucWenState::new());
-        for row in &record {
-            let mut shares = [f64::NAN; 7];
-            let mut order = vec![];
-            let output = model.step_with(&mut state, &sample(row), |index, share| {
-                shares[index] = share;
-                order.push(index);
-            });
-            let force = cable().step(&mut eta, row.1.position);
-            assert_relative_eq!(force + shares.iter().sum::<f64>(), output, epsilon = 1e-12);
-            prop_assert_eq!(order, [0, 2, 3, 5, 6, 1, 4]); // output stages last, in their order
-            prop_assert_eq!(output, model.step(&mut silent, &sample(row)));
-            prop_assert_eq!(state, silent);
         }
     }
 

@@ -57,22 +57,6 @@ fn a_constant_speed_has_the_error_that_the_docs_state_from_half_a_count_a_second
     }
 }
 
-/// What the difference quotient with the same lag gives at 20 counts/s.
-#[test]
-fn at_twenty_counts_a_second_the_velocity_is_twenty_and_no_comb() {
-    let mut state = EdgeVelocityState::new();
-    let (mut low, mut high) = (f32::MAX, f32::MIN);
-    for k in 0..2000_u32 {
-        let position = counter(20.0 * f64::from(k) * DT + 0.001);
-        let velocity = edges().step(&mut state, position, DT as f32).velocity;
-        if k > 150 {
-            (low, high) = (low.min(velocity), high.max(velocity));
-        }
-    }
-    // One sample of fifty.
-    assert!(low > 20.0 * 0.98 && high < 20.0 * 1.0205, "{low} {high}");
-}
-
 #[test]
 fn a_stop_follows_the_bound_down_and_is_zero_after_the_longest_gap() {
     for speed in [20.0, 1234.0] {
@@ -152,7 +136,6 @@ fn a_reversal_takes_one_count_off_the_way_that_was_counted() {
     near(f64::from(out.velocity), expected, 1e-5);
 }
 
-/// Slow changes of a speed: the delay at the counts and what holding adds.
 #[test]
 fn a_slow_sine_of_the_speed_is_late_by_what_the_docs_state() {
     for (mean, time_constant) in [

@@ -2,7 +2,6 @@
 //! spike can do.
 
 use super::*;
-use bowden::control::{Fallback, Limits, Pid, PidInput, PidSettings, PidState};
 
 const RATE: f64 = 500.0;
 
@@ -70,20 +69,14 @@ fn a_sound_sensor_that_is_not_in_step_with_the_loop_needs_its_sample_period() {
 }
 
 #[test]
-fn a_slow_sensor_switches_no_sound_machine_off() {
-    let safe = Fallback::try_new(20, 0.0).unwrap();
-    let limits = Limits::try_new(-20.0, 60.0).unwrap();
-    let pi = Pid::try_new(PidSettings::new(0.5, 5.0, limits, 0.005, safe)).unwrap();
+fn a_sound_sensor_that_is_slow_is_never_refused_in_single_precision() {
     for divisor in [1, 2, 5, 10_u32] {
-        let plausible = with_rate::<f32>(550.0);
-        let (mut seen, mut state) = (PlausibleState::new(), PidState::new());
+        let (plausible, mut state) = (with_rate::<f32>(550.0), PlausibleState::new());
         for k in 0..5000_u32 {
             let t = (k - k % divisor) as f32 * 0.001;
             let y = 40.0 * (12.5 * t).sin(); // 500/s at the steepest
-            let at = plausible.step(&mut seen, y, 0.001, true);
-            assert_eq!(at.fault, None, "{divisor} {k}");
-            pi.step(&mut state, &PidInput::new(0.001, 10.0, at.value));
-            assert!(!state.is_latched());
+            let fault = plausible.step(&mut state, y, 0.001, true).fault;
+            assert_eq!(fault, None, "{divisor} {k}");
         }
     }
 }

@@ -193,7 +193,6 @@ fn on_the_edge_of_the_continuous_box_the_loop_points_inwards() {
     assert!(boxes > 1000 && nearest < 0.05, "{boxes} {nearest}");
 }
 
-/// V with the best weight of z, target and theta falls as the certificate says.
 #[test]
 fn v_falls_at_every_state_as_the_tightest_form_of_theorem_1_says() {
     let mut random = Random(31);

@@ -168,8 +168,6 @@ fn of_single_plants_the_proof_is_the_frequency_response_at_high_frequencies_too(
     }
 }
 
-/// A range of cycle times is proved at both of its ends: what is true of the shortest cycle is refused
-/// where the longest is worse.
 #[test]
 fn a_range_of_cycle_times_is_no_better_than_its_worst_end() {
     let learning = learning(4.0, 5, 3);
@@ -191,7 +189,6 @@ fn a_range_of_cycle_times_is_no_better_than_its_worst_end() {
     assert!(!shown(1.25, 1.25, long - 1e-4));
 }
 
-/// Over a range no plant and no cycle time that is drawn has a greater |H|.
 #[test]
 fn no_plant_of_a_range_is_worse_than_what_is_proved() {
     let share = 0.05;

@@ -138,7 +138,6 @@ fn no_oscillation_is_told_at_the_longest_time() {
     }
 }
 
-/// Noise far beyond the hysteresis: every period is another one, or too short.
 #[test]
 fn chatter_is_no_result() {
     for dt in [0.01, 0.011, 0.012] {
@@ -147,7 +146,6 @@ fn chatter_is_no_result() {
     }
 }
 
-/// One bad measurement in ten, with its time: the same result as without.
 #[test]
 fn bad_measurements_whose_time_is_known_leave_the_result() {
     let mut plant = Plant::third_order();
@@ -166,7 +164,6 @@ fn bad_measurements_whose_time_is_known_leave_the_result() {
     near(it.gain / expected.gain, 1.0, 0.02);
 }
 
-/// The cycle with an unknown time is not averaged: with one in each cycle there is no result.
 #[test]
 fn a_cycle_whose_time_is_unknown_does_not_count() {
     // A hysteresis, so that no cycle of a few samples passes between two of the unknown times.

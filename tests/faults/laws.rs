@@ -1,10 +1,6 @@
-//! The adaptive law.
+//! One law at a time: PID and the adaptive one.
 
 use super::*;
-
-fn good() -> AdaptiveInput<f64, 1> {
-    AdaptiveInput::new(DT, 25.0, 24.5, [0.2])
-}
 
 #[test]
 fn the_rate_of_the_error_bridges_bad_samples() {
@@ -28,48 +24,12 @@ fn the_rate_of_the_error_bridges_bad_samples() {
 }
 
 #[test]
-fn a_wrapped_counter_is_no_sample_of_either_form() {
-    for law in forms(|_| ()) {
-        let mut state = AdaptiveState::new(&law);
-        law.step(&mut state, &good());
-        let before = state;
-        let out = law.step(&mut state, &with(good(), |at| at.dt = 4295.0));
-        assert_eq!(out.status, Status::Held(Fault::DtTooLong));
-        assert_eq!(out.command, before.command());
-        assert_eq!(state.accumulated_error(), before.accumulated_error());
-    }
-}
-
-#[test]
 fn the_lag_form_accepts_no_longer_step_than_it_admits_and_than_was_stated() {
     for longest_dt in [LONGEST, 1.5 * DT] {
         let [_, law] = forms(|s| s.longest_dt = longest_dt);
         let largest = law.settings().largest_step().unwrap();
         assert_eq!(law.longest_dt(), largest.min(longest_dt));
         assert!(longest_dt == LONGEST || law.longest_dt() == longest_dt);
-    }
-}
-
-#[test]
-fn a_nan_encoder_that_may_be_dropped_leaves_the_torque_loop_closed() {
-    for law in forms(|s| s.missing = [OnMissing::DropRegressor]) {
-        let mut state = AdaptiveState::new(&law);
-        for _ in 0..100 {
-            law.step(&mut state, &good());
-        }
-        let before = state;
-        let [blind, at_zero] = [f64::NAN, 0.0].map(|x| with(good(), |at| at.regressors = [x]));
-        let wanted = law.terms(&state, &at_zero).unlimited;
-        let out = law.step(&mut state, &blind);
-        assert_eq!(out.status, Status::Degraded(Fault::Regressor(0)));
-        assert_eq!(out.command, wanted, "the law without that term");
-        assert_ne!(state.accumulated_error(), before.accumulated_error());
-        assert_eq!(state.theta_hat(), before.theta_hat());
-        assert_eq!(state.beta_hat(), before.beta_hat());
-        assert_eq!(state.delta_hat(), before.delta_hat());
-        // The torque sensor is not an encoder.
-        let out = law.step(&mut state, &with(blind, |at| at.measured = f64::NAN));
-        assert_eq!(out.status, Status::Held(Fault::Measured));
     }
 }
 
@@ -102,4 +62,28 @@ fn the_lag_reaches_its_target_in_f32_at_any_rate() {
         }
         near(f64::from(state.command()), 50.0, 4e-6);
     }
+}
+
+#[test]
+fn a_gap_of_unknown_length_gives_no_rate() {
+    // The signal moves by 1 while the clock is lost: over 1 ms that would be a rate of 1000.
+    let pid = pid(|s| s.k_d = 1.0);
+    for lost in [f64::NAN, -1.0, 4295.0] {
+        let mut state = PidState::new();
+        for (dt, y) in [(DT, 0.0), (lost, 0.5), (DT, 1.0)] {
+            pid.step(&mut state, &PidInput::new(dt, 0.0, y));
+        }
+        assert_eq!(state.rate(), 0.0, "{lost}");
+        pid.step(&mut state, &PidInput::new(DT, 0.0, 1.001));
+        near(state.rate(), 1.0, 1e-9); // 0.001 in 1 ms, unfiltered
+    }
+}
+
+/// What has no limits, no longest dt and no safe command says so by its name.
+#[test]
+fn a_short_constructor_asks_for_limits_a_longest_dt_and_a_safe_command() {
+    let simulated = PidSettings::unlimited(3.0, 30.0);
+    assert_eq!(simulated.limits, Limits::unlimited());
+    assert_eq!(simulated.longest_dt, f64::MAX);
+    assert_eq!(simulated.fallback.command(), None);
 }
