@@ -400,10 +400,7 @@ fn what_was_stored_is_confined_and_goes_on() {
 
 #[test]
 fn it_can_live_in_flash() {
-    static LEARNING: IterativeLearning<f32> =
-        constant!(IterativeLearning::<f32>::try_new(4.0, 30.0, 2, 2).with_forgetting(0.01));
-    let same = IterativeLearning::try_new(4.0_f32, 30.0, 2, 2);
-    assert_eq!(Ok(LEARNING), same.and_then(|own| own.with_forgetting(0.01)));
+    in_flash!(f32: IterativeLearning::try_new(4.0, 30.0, 2, 2).with_forgetting(0.01););
 }
 
 #[cfg(feature = "serde")]

@@ -254,15 +254,11 @@ fn what_cannot_be_is_refused_by_name() {
 #[test]
 fn it_can_live_in_flash() {
     const PLANT: NominalPlant<f32> = constant!(NominalPlant::<f32>::try_new(0.6, 25.5, 0.265));
-    static OBSERVER: DisturbanceObserver<f32> = constant!(DisturbanceObserver::<f32>::try_new(
-        PLANT, 0.0159, 30.0, 0.005
-    )
-    .with_latency(0.003));
-    let same = NominalPlant::try_new(0.6_f32, 25.5, 0.265)
-        .and_then(|plant| DisturbanceObserver::try_new(plant, 0.0159, 30.0, 0.005))
-        .and_then(|own| own.with_latency(0.003));
-    assert_eq!(Ok(OBSERVER), same);
-    assert_eq!(OBSERVER.plant().gain(), f32::from_f64(0.6));
+    in_flash!(f32:
+        NominalPlant::try_new(0.6, 25.5, 0.265);
+        DisturbanceObserver::try_new(PLANT, 0.0159, 30.0, 0.005).with_latency(0.003);
+    );
+    assert_eq!(PLANT.gain(), f32::from_f64(0.6));
 }
 
 #[cfg(feature = "serde")]

@@ -143,11 +143,13 @@ fn settings_are_refused_by_name() {
     use Error::{NonFinite, OutOfRange};
     type Change = fn(&mut PidSettings<f64>);
     #[rustfmt::skip]
-    let cases: [(Change, Error); 7] = [
+    let cases: [(Change, Error); 9] = [
         (|s| s.k_p = f64::NAN, NonFinite("k_p")),
         (|s| s.k_i = f64::INFINITY, NonFinite("k_i")),
         (|s| s.k_d = f64::NAN, NonFinite("k_d")),
         (|s| s.derivative_time = -1e-3, OutOfRange("derivative_time")),
+        (|s| s.longest_dt = 0.0, OutOfRange("longest_dt")),
+        (|s| s.longest_dt = f64::NAN, NonFinite("longest_dt")),
         (|s| s.setpoint_weight = 1.5, OutOfRange("setpoint_weight")),
         (|s| s.damping = DerivativeSource::Rate { weight: -0.1 }, OutOfRange("derivative weight")),
         (|s| s.anti_windup = AntiWindup::BackCalculation { tracking_time: 0.0 }, OutOfRange("tracking_time")),
@@ -164,6 +166,10 @@ fn gains_of_opposite_signs_and_a_safe_command_outside_the_limits_are_refused() {
         s.limits = range(5.0, 20.0);
         s.fallback = Fallback::try_new(3, 0.0).unwrap();
     };
+    let condition = "the safe command lies within the limits";
+    assert_eq!(refused(outside), Error::Inadmissible(condition));
+    let weight = Fallback::try_new(20, 0.0).unwrap().with_weight(0);
+    assert_eq!(weight, Err(Error::OutOfRange("weight")));
     for change in [outside, |s| s.k_i = -18.0, |s| s.k_d = -2.0] {
         assert!(matches!(refused(change), Error::Inadmissible(_)));
     }

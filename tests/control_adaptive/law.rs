@@ -56,9 +56,10 @@ fn a_refusal_says_which_setting_or_condition() {
     use Error::{Inadmissible, NonFinite, OutOfRange};
     type Change = fn(&mut AdaptiveSettings<f64, 1>);
     #[rustfmt::skip]
-    let cases: [(Change, Error); 11] = [
+    let cases: [(Change, Error); 12] = [
         (|s| s.gain = 0.0, OutOfRange("gain")),
         (|s| s.lambda = f64::NAN, NonFinite("lambda")),
+        (|s| s.longest_dt = -1.0, OutOfRange("longest_dt")),
         (|s| s.epsilon = -1.0, OutOfRange("epsilon")),
         (|s| s.theta = [Estimator::fixed(9.0).within(-5.0, 5.0)], OutOfRange("theta.initial")),
         (|s| s.delta.gain = -1.0, OutOfRange("delta.gain")),

@@ -69,10 +69,8 @@ fn creep_follows_a_step_as_the_exponential_at_any_dt() {
 
 #[test]
 fn lag_lacks_the_exponential_after_a_step() {
-    let path: Vec<_> = [1.0]
-        .into_iter()
-        .chain([4.0; 100])
-        .map(|y| out(y, 0.02))
+    let path: Vec<_> = (0..101)
+        .map(|k| out(if k == 0 { 1.0 } else { 4.0 }, 0.02))
         .collect();
     for (k, lack) in along(&make("lag"), &path).into_iter().enumerate() {
         let left = (-0.02 * k as f64 / 0.7_f64).exp();
@@ -141,35 +139,21 @@ fn dahl(positions: impl IntoIterator<Item = f64>) -> Vec<f64> {
 fn dahls_branches_are_exponentials_at_any_step() {
     let r = 0.7_f64;
     // Up from 0.4 to 1.9, down to −1, up to 3: steps of many widths, one of them none.
-    let steps = (0..60).map(|k| [0.03, 0.001, 0.0, 0.08, 0.014][k % 5]);
-    let way: Vec<f64> = steps
-        .scan(0.0, |way, step| {
-            *way += step;
-            Some(*way)
-        })
+    let step = |k: usize| [0.03, 0.001, 0.0, 0.08, 0.014][k % 5];
+    let way: Vec<f64> = (0..60).map(|k| (0..=k).map(step).sum()).collect();
+    let pairs = [(0.4, 1.9), (1.9, -1.0), (-1.0, 3.0)];
+    let stroke = |(from, to)| way.iter().map(move |s| from + (to - from) * s / 1.5);
+    let path: Vec<f64> = [0.4]
+        .into_iter()
+        .chain(pairs.into_iter().flat_map(stroke))
         .collect();
-    let length = way.last().unwrap();
-    let along_the = |from: f64, to: f64| {
-        let scale = (to - from) / length;
-        way.iter().map(move |s| from + scale * s)
-    };
-    let ends = [0.4, 1.9, -1.0, 3.0];
-    let strokes = ends
-        .windows(2)
-        .flat_map(|ends| along_the(ends[0], ends[1]).map(move |x| (ends[0], x, ends[1])));
-    let strokes: Vec<(f64, f64, f64)> = strokes.collect();
-    let found = dahl([ends[0]].into_iter().chain(strokes.iter().map(|at| at.1)));
-    assert_eq!(found[0], 0.0);
-    let (mut start, mut last) = (0.0, ends[0]);
-    for (&(from, x, to), &z) in strokes.iter().zip(&found[1..]) {
-        let branch = |start: f64, end: f64, way: f64| end + (start - end) * (-way.abs() / r).exp();
-        if from != last {
-            // At the reversal: z where the branch before it ended.
-            start = branch(start, (from - last).signum(), from - last);
-            last = from;
-        }
-        let expected = branch(start, (to - from).signum(), x - from);
+    let (mut expected, mut last) = (0.0, path[0]);
+    for (x, z) in path.iter().zip(dahl(path.iter().copied())) {
+        // From the value before towards the end of this way.
+        let end = (x - last).signum();
+        expected = end + (expected - end) * (-(x - last).abs() / r).exp();
         assert_relative_eq!(z, expected, max_relative = 1e-13, epsilon = 1e-14);
+        last = *x;
     }
 }
 

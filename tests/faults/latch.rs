@@ -224,25 +224,6 @@ proptest! {
     }
 }
 
-#[test]
-fn settings_that_break_the_promise_are_refused_by_name() {
-    type Change = fn(&mut PidSettings<f64>);
-    let outside: Change = |s| s.fallback = Fallback::try_new(20, 70.0).unwrap();
-    let cases: [(Change, &str); 3] = [
-        (outside, "safe command"),
-        (|s| s.longest_dt = 0.0, "longest_dt"),
-        (|s| s.longest_dt = f64::NAN, "longest_dt"),
-    ];
-    for (change, name) in cases {
-        let refused = Pid::try_new(with(pi(), change)).unwrap_err();
-        assert!(refused.to_string().contains(name), "{refused}");
-    }
-    let refused = fallback().with_weight(0).unwrap_err();
-    assert!(refused.to_string().contains("weight"), "{refused}");
-    let refused = Adaptive::try_new(with(law(true), |s| s.longest_dt = -1.0)).unwrap_err();
-    assert!(refused.to_string().contains("longest_dt"), "{refused}");
-}
-
 /// What the output did before the fault says nothing of what it does after it.
 #[test]
 fn after_a_fault_a_pd_starts_without_the_rate_from_before_it() {

@@ -78,12 +78,3 @@ fn a_gap_of_unknown_length_gives_no_rate() {
         near(state.rate(), 1.0, 1e-9); // 0.001 in 1 ms, unfiltered
     }
 }
-
-/// What has no limits, no longest dt and no safe command says so by its name.
-#[test]
-fn a_short_constructor_asks_for_limits_a_longest_dt_and_a_safe_command() {
-    let simulated = PidSettings::unlimited(3.0, 30.0);
-    assert_eq!(simulated.limits, Limits::unlimited());
-    assert_eq!(simulated.longest_dt, f64::MAX);
-    assert_eq!(simulated.fallback.command(), None);
-}

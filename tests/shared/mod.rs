@@ -67,3 +67,16 @@ where
         assert!(serde_json::from_str::<T>(&bad).is_err(), "{bad}");
     }
 }
+
+/// Each of these configurations compiles as a static, and is what the run time makes.
+#[allow(unused_macros)]
+macro_rules! in_flash {
+    ($float:ty: $($kind:ident::$make:ident($($x:expr),*)$(.$more:ident($y:expr))*;)+) => {$({
+        static OWN: $kind<$float> =
+            bowden::constant!($kind::<$float>::$make($($x),*)$(.$more($y))*);
+        let made = $kind::<$float>::$make($($x),*)$(.and_then(|own| own.$more($y)))*;
+        assert_eq!(Ok(OWN), made);
+    })+};
+}
+#[allow(unused_imports)]
+pub(crate) use in_flash;

@@ -25,44 +25,27 @@ struct Play<const N: usize> {
     theta: [f64; N],
     /// Length of a half period \[s\].
     half: f64,
-    estimates: Estimates,
+    /// Whether the estimates go from one corner of their boxes to the other and back, once a second.
+    jumps: bool,
 }
 
 /// At rest at one end.
-fn resting(estimates: Estimates) -> Play<0> {
+fn resting(jumps: bool) -> Play<0> {
     Play {
         alpha: 1.0,
         theta: [],
         half: f64::INFINITY,
-        estimates,
+        jumps,
     }
 }
 
 /// The reference's way from end to end at its rate, of [`own_plant`]; all else arrives with it.
-fn moving(estimates: Estimates) -> Play<2> {
+fn moving(jumps: bool) -> Play<2> {
     Play {
         alpha: 0.92,
         theta: [3.0, 0.3],
         half: 2.0 * 25.0 / (0.999 * 22.3),
-        estimates,
-    }
-}
-
-/// What the adversary does with the estimates.
-enum Estimates {
-    Stay,
-    /// From one corner of their boxes to the other and back, once a second.
-    Jump,
-}
-
-impl Estimates {
-    /// The law with the estimates of now.
-    fn choose<'a, L>(&self, own: &'a L, [low, high]: [&'a L; 2], jumped: bool) -> &'a L {
-        match self {
-            Self::Stay => own,
-            Self::Jump if jumped => high,
-            Self::Jump => low,
-        }
+        jumps,
     }
 }
 
@@ -147,7 +130,11 @@ fn attack_in<T: Real, const N: usize>(
         let next = T::from_f64(reference.at(next_side, next_left));
         let input = with(input(y), |at| at.next_reference = next);
         let jumped = (f64::from(n) * dt).fract() >= 0.8;
-        let law = play.estimates.choose(&law, [&low, &high], jumped);
+        let law = match (play.jumps, jumped) {
+            (false, _) => &law,
+            (true, false) => &low,
+            (true, true) => &high,
+        };
         let before = state.command().as_f64();
         let output = law.step_with_terms(&mut state, &input);
         let speed = (output.command.as_f64() - before).abs() / dt;
@@ -198,7 +185,7 @@ fn worst<T: Real, const N: usize>(settings: AdaptiveSettings<T, N>) -> AdaptiveS
 fn both(steps: u32) {
     // r = 10 and g = 0.8 push as 2 N·m, D = 6 N·m with them: W is filled, at rest.
     let (plant, own_plant) = (table_2_plant(), own_plant());
-    let (resting, moving) = (resting(Estimates::Stay), moving(Estimates::Stay));
+    let (resting, moving) = (resting(false), moving(false));
     for reached in [
         attack(worst(table_2::<f32, 0>(0.0)), &plant, &resting, steps),
         attack(worst(table_2::<f64, 0>(0.0)), &plant, &resting, steps),
@@ -238,7 +225,7 @@ fn at_the_limit<T: Real>(steps: u32) {
     let law = limited(worst(table_2::<T, 0>(T::ZERO)), 16.001);
     let plant = table_2_plant();
     assert!(proved(law, &plant).may_meet_the_limit());
-    let reached = attack(law, &plant, &resting(Estimates::Jump), steps);
+    let reached = attack(law, &plant, &resting(true), steps);
     assert!(reached.all >= 0.9 && reached.limited >= 0.9, "{reached:?}");
     assert!(reached.cuts > steps / 100, "{reached:?}");
 }
@@ -287,7 +274,7 @@ fn slewed<T: Real, const N: usize>(
 #[test]
 fn a_slew_rate_that_is_proved_not_to_be_met_is_not() {
     let (own_plant, plant) = (own_plant(), table_2_plant());
-    let (moving, resting) = (moving(Estimates::Jump), resting(Estimates::Jump));
+    let (moving, resting) = (moving(true), resting(true));
     let (single, of_single) = slewed(worst(own::<f32>()), &own_plant);
     let (double, of_double) = slewed(worst(own::<f64>()), &own_plant);
     // With a limit that is met, too.
@@ -312,7 +299,7 @@ fn a_slew_rate_that_is_proved_not_to_be_met_is_not() {
 fn below_that_slew_rate_an_adversary_leaves_the_box() {
     let plant = own_plant();
     let settings = worst(own::<f64>());
-    let play = moving(Estimates::Jump);
+    let play = moving(true);
     assert!(proved(settings, &plant).slew.is_none());
     let slow = with_slew(settings, 40.0);
     let refused = PeakRounded::examine(&slow, &plant).unwrap();
