@@ -26,71 +26,46 @@ fn pids() -> [Pid<f64>; 3] {
     ]
 }
 
-/// Every law of a machine: one trait over all of them; the lag form last.
-fn every_law() -> Vec<Box<dyn Runs>> {
-    let pids = pids().map(|pid| Box::new(Running::new(pid)) as Box<dyn Runs>);
-    let forms = forms(|_| ()).map(|law| Box::new(Running::new(law)) as Box<dyn Runs>);
-    pids.into_iter().chain(forms).collect()
+/// Every law of a machine, next to how far the first command after the safe one may be from it: a
+/// PID and the literal form start from it exactly, the lag moves by a share h·lambda = 0.008 of the
+/// way to a command that lies within 100.
+macro_rules! every_law {
+    ($check:ident) => {
+        for pid in pids() {
+            $check(&pid, 1e-9);
+        }
+        for (law, way) in forms(|_| ()).iter().zip([1e-9, 0.8]) {
+            $check(law, way);
+        }
+    };
 }
 
-/// A law with its state.
-struct Running<C: Controller<f64>> {
-    law: C,
-    state: C::State,
-}
-
-impl<C: Controller<f64>> Running<C> {
-    fn new(law: C) -> Self {
-        let state = law.start();
-        Self { law, state }
-    }
-}
-
-trait Runs {
-    fn run(&mut self, at: &LoopSample<f64>, n: u32) -> (f64, Status);
-    fn acknowledge(&mut self);
-    fn resume(&mut self, output: f64) -> Status;
-}
-
-impl<C: Controller<f64>> Runs for Running<C> {
-    fn run(&mut self, at: &LoopSample<f64>, n: u32) -> (f64, Status) {
-        steps(&self.law, &mut self.state, at, n)
-    }
-    fn acknowledge(&mut self) {
-        self.law.acknowledge(&mut self.state);
-    }
-    fn resume(&mut self, output: f64) -> Status {
-        self.law.resume_from(&mut self.state, output, &good())
-    }
+fn is_safe_until_acknowledged<C: Controller<f64>>(law: &C, way: f64) {
+    let mut state = law.start();
+    let (running, _) = steps(law, &mut state, &good(), 500);
+    assert!(running.abs() > 1.0, "{running}");
+    let safe = (0.0, Status::Safe(Fault::Measured));
+    let held = Status::Held(Fault::Measured);
+    assert_eq!(steps(law, &mut state, &bad(), 19).1, held);
+    assert_eq!(steps(law, &mut state, &bad(), 1), safe);
+    // Good samples do not restart the motor, nor does another start.
+    assert_eq!(steps(law, &mut state, &good(), 1000), safe);
+    assert_eq!(law.resume_from(&mut state, 30.0, &good()), safe.1);
+    assert_eq!(steps(law, &mut state, &good(), 1), safe);
+    // It was seen, but the sensor is still dead.
+    law.acknowledge(&mut state);
+    assert_eq!(steps(law, &mut state, &bad(), 19), (0.0, held));
+    assert_eq!(steps(law, &mut state, &bad(), 1), safe);
+    law.acknowledge(&mut state);
+    let (first, status) = steps(law, &mut state, &good(), 1);
+    assert!(first.abs() < way && status == Status::Good, "{first}");
+    let (again, _) = steps(law, &mut state, &good(), 2000);
+    assert!(again.abs() > 1.0, "{again}");
 }
 
 #[test]
 fn the_safe_command_stays_until_it_is_acknowledged() {
-    for (kind, mut law) in every_law().into_iter().enumerate() {
-        let (running, _) = law.run(&good(), 500);
-        assert!(running.abs() > 1.0, "{kind}: {running}");
-        let safe = (0.0, Status::Safe(Fault::Measured));
-        let held = Status::Held(Fault::Measured);
-        assert_eq!(law.run(&bad(), 19).1, held);
-        assert_eq!(law.run(&bad(), 1), safe);
-        // Good samples do not restart the motor, nor does another start.
-        assert_eq!(law.run(&good(), 1000), safe, "{kind}");
-        assert_eq!(law.resume(30.0), safe.1);
-        assert_eq!(law.run(&good(), 1), safe);
-        // It was seen, but the sensor is still dead.
-        law.acknowledge();
-        assert_eq!(law.run(&bad(), 19), (0.0, held));
-        assert_eq!(law.run(&bad(), 1), safe);
-        law.acknowledge();
-        let (first, status) = law.run(&good(), 1);
-        assert_eq!(status, Status::Good);
-        // From the safe command on: a PID and the literal form exactly, the lag by a share
-        // h·lambda = 0.008 of the way to a command that lies within 100.
-        let way = if kind == 4 { 0.8 } else { 1e-9 };
-        assert!(first.abs() < way, "{kind}: {first}");
-        let (again, _) = law.run(&good(), 2000);
-        assert!(again.abs() > 1.0, "{kind}: {again}");
-    }
+    every_law!(is_safe_until_acknowledged);
 }
 
 /// What somebody may do to a state between two samples.
@@ -117,10 +92,8 @@ fn one_good_sample_closes<C: Controller<f64>>(law: &C, reset: impl Fn(&C, &mut C
             steps(law, &mut state, &super::bad(), 20);
             assert!(law.is_latched(&state));
             before(&mut state);
-            assert!(matches!(
-                law.step(&mut state, &good()).status,
-                Status::Safe(_)
-            ));
+            let status = law.step(&mut state, &good()).status;
+            assert!(matches!(status, Status::Safe(_)));
             law.acknowledge(&mut state);
             after(&mut state);
             assert_eq!(law.step(&mut state, &good()).status, Status::Good);
@@ -148,54 +121,67 @@ fn after_an_acknowledgement_the_first_good_sample_closes_the_loop() {
     }
 }
 
+/// In which sample the safe command is out, of so many.
+fn latched_at<C: Controller<f64>>(law: &C, most: u32, is_bad: fn(u32) -> bool) -> Option<u32> {
+    let mut state = law.start();
+    (1..=most).find(|&k| {
+        let at = if is_bad(k - 1) { bad() } else { good() };
+        matches!(law.step(&mut state, &at).status, Status::Safe(_))
+    })
+}
+
+fn tells_how_many_are_too_many<C: Controller<f64>>(law: &C, _: f64) {
+    assert_eq!(latched_at(law, 20_000, |k| k % 100 == 0), None);
+    // Score 4·9 - 1 in ten samples: 80 is reached within the third ten.
+    let late = latched_at(law, 1000, |k| k % 10 != 9);
+    assert!(late.is_some_and(|k| (20..=30).contains(&k)), "{late:?}");
+}
+
 #[test]
 fn nine_bad_samples_of_ten_are_too_many_and_one_in_a_hundred_is_no_reason_to_stop() {
-    let latched_at = |law: &mut Box<dyn Runs>, most: u32, is_bad: fn(u32) -> bool| {
-        (1..=most).find(|&k| {
-            let at = if is_bad(k - 1) { bad() } else { good() };
-            matches!(law.run(&at, 1).1, Status::Safe(_))
-        })
-    };
-    for mut law in every_law() {
-        assert_eq!(latched_at(&mut law, 20_000, |k| k % 100 == 0), None);
-        // Score 4·9 - 1 in ten samples: 80 is reached within the third ten.
-        let late = latched_at(&mut law, 1000, |k| k % 10 != 9);
-        assert!(late.is_some_and(|k| (20..=30).contains(&k)), "{late:?}");
-    }
+    every_law!(tells_how_many_are_too_many);
+}
+
+fn refuses_a_wrapped_counter<C: Controller<f64>>(law: &C, _: f64) {
+    let mut state = law.start();
+    let (before, _) = steps(law, &mut state, &good(), 1);
+    let wrapped = law.step(&mut state, &with(good(), |at| at.dt = 4295.0));
+    let held = Status::Held(Fault::DtTooLong);
+    assert_eq!((wrapped.command, wrapped.status), (before, held));
 }
 
 #[test]
 fn a_wrapped_counter_is_no_sample_and_the_longest_dt_that_was_stated_is_one() {
-    for mut law in every_law() {
-        let (before, _) = law.run(&good(), 1);
-        let wrapped = law.run(&with(good(), |at| at.dt = 4295.0), 1);
-        assert_eq!(wrapped, (before, Status::Held(Fault::DtTooLong)));
-    }
-    let mut law = Running::new(pid(|_| ()));
+    every_law!(refuses_a_wrapped_counter);
     let late = with(good(), |at| at.dt = LONGEST);
-    assert_eq!(law.run(&late, 1).1, Status::Good);
+    assert_eq!(
+        Controller::step(&pid(|_| ()), &mut PidState::new(), &late).status,
+        Status::Good
+    );
 }
 
 #[test]
 fn without_an_integral_gain_no_old_command_stays_in_the_sum() {
-    let mut law = Running::new(pid(|s| s.k_i = 0.0));
-    let (before, _) = law.run(&good(), 10);
-    law.run(&bad(), 20);
-    law.acknowledge();
+    let (law, mut state) = (pid(|s| s.k_i = 0.0), PidState::new());
+    let (before, _) = steps(&law, &mut state, &good(), 10);
+    steps(&law, &mut state, &bad(), 20);
+    state.acknowledge();
     // From the safe command on; what it differs by is gone to the last bit after 40 time constants
     // of 1 s: e^-40 is below half an ulp of 1.
-    assert_eq!(law.run(&good(), 1), (0.0, Status::Good));
+    assert_eq!(steps(&law, &mut state, &good(), 1), (0.0, Status::Good));
     let samples = (40.0 / DT) as u32;
-    assert_eq!(law.run(&good(), samples), (before, Status::Good));
+    let end = steps(&law, &mut state, &good(), samples);
+    assert_eq!(end, (before, Status::Good));
 }
 
 #[test]
 fn a_loop_without_a_safe_command_holds_for_ever_and_says_so_by_its_name() {
-    let mut law = Running::new(pid(|s| s.fallback = Fallback::hold_indefinitely()));
-    let (before, _) = law.run(&good(), 500);
+    let law = pid(|s| s.fallback = Fallback::hold_indefinitely());
+    let mut state = PidState::new();
+    let (before, _) = steps(&law, &mut state, &good(), 500);
     let held = (before, Status::Held(Fault::Measured));
-    assert_eq!(law.run(&bad(), 100_000), held);
-    assert_eq!(law.run(&good(), 1).1, Status::Good);
+    assert_eq!(steps(&law, &mut state, &bad(), 100_000), held);
+    assert_eq!(steps(&law, &mut state, &good(), 1).1, Status::Good);
 }
 
 proptest! {
@@ -209,11 +195,11 @@ proptest! {
         weight in 1_u32..9,
     ) {
         let fallback = Fallback::try_new(after, 0.0).unwrap().with_weight(weight).unwrap();
-        let mut law = Running::new(pid(|s| s.fallback = fallback));
+        let (law, mut state) = (pid(|s| s.fallback = fallback), PidState::new());
         let mut latched = false;
         for (end, &is_bad) in samples.iter().enumerate() {
             let at = if is_bad { bad() } else { good() };
-            latched |= matches!(law.run(&at, 1).1, Status::Safe(_));
+            latched |= matches!(Controller::step(&law, &mut state, &at).status, Status::Safe(_));
             let late = (0..=end).any(|begin| {
                 let stretch = &samples[begin..=end];
                 let bad = stretch.iter().filter(|bad| **bad).count() as i64;
