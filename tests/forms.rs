@@ -1,6 +1,9 @@
 //! The model as a file, `bowden.model/1`, and as bytes.
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation)]
 
+#[path = "shared/mod.rs"]
+mod shared;
+
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
 use bowden::effect::{Effect, CATALOGUE};
 use bowden::hysteresis::BoucWen;
@@ -12,6 +15,7 @@ use bowden::Real;
 use proptest::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use shared::make;
 use std::fmt::Debug;
 
 /// As `bowden close --model-out model.toml` writes it.
@@ -202,18 +206,14 @@ fn as_many_channels_as_a_source_can_count_are_read_and_no_more() {
 
 /// Every effect of the catalogue, on the input and on channels.
 fn whole_catalogue<T: Real>() -> Model<T, 64> {
-    let shapes = [0.7, 0.3];
-    let of = |(k, name): (usize, &str)| {
-        let source = match k % 3 {
+    let of = |(k, name): (usize, &str)| Term {
+        effect: make(name),
+        source: match k % 3 {
             0 => Source::Input,
             k => Source::Channel(k as u8),
-        };
-        let is_known = |count: &usize| {
-            let shapes: Vec<T> = shapes[..*count].iter().map(|&x| T::from_f64(x)).collect();
-            Effect::try_from_name(name, &shapes).is_ok()
-        };
-        let count = (0..=2).find(is_known).unwrap();
-        term(name, &shapes[..count], source, 0.1 * k as f64, 1.0 / 3.0)
+        },
+        origin: T::from_f64(0.1 * k as f64),
+        gain: T::from_f64(1.0 / 3.0),
     };
     let names = CATALOGUE.iter().map(|info| info.name);
     let terms: Vec<Term<T>> = names.enumerate().map(of).collect();

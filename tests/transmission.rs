@@ -18,11 +18,6 @@ fn shape<T: Real>(rho: f64, sigma: f64, n: f64) -> BoucWen<T> {
     BoucWen::try_new(T::from_f64(rho), T::from_f64(sigma), T::from_f64(n)).unwrap()
 }
 
-fn paper<T: Real>(sigma: f64) -> Transmission<T> {
-    let [b, kappa_eta, t0] = [0.9978, 7.004, 0.051_74].map(T::from_f64);
-    Transmission::torque(b, kappa_eta, t0, shape(0.095_82, sigma, 3.871)).unwrap()
-}
-
 #[test]
 fn torque_mode_is_equation_six_and_displacement_mode_equation_one() {
     let shape = shape(0.1, 0.5, 2.0);

@@ -14,7 +14,7 @@ fn term(name: &str, shapes: &[f64], channel: u8, gain: f64) -> Term<f64> {
 }
 
 fn bent<const N: usize>(sigma: f64, terms: &[Term<f64>]) -> Model<f64, N> {
-    Model::try_new(Some(cable(sigma)), terms).unwrap()
+    Model::try_new(Some(paper(sigma)), terms).unwrap()
 }
 
 /// Friction with and without memory, inertia and ripple on two pulleys.

@@ -50,9 +50,3 @@ fn pid(k_p: f64, k_i: f64, change: impl FnOnce(&mut PidSettings<f64>)) -> Pid<f6
 fn refused(change: impl FnOnce(&mut PidSettings<f64>)) -> Error {
     Pid::try_new(with(PidSettings::unlimited(30.0, 18.0), change)).unwrap_err()
 }
-
-/// The paper's first cable with a knee of this sigma.
-fn cable(sigma: f64) -> Transmission<f64> {
-    let shape = BoucWen::try_new(0.095_82, sigma, 3.871).unwrap();
-    Transmission::torque(0.9978, 7.004, 0.051_74, shape).unwrap()
-}

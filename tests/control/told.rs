@@ -3,7 +3,7 @@
 use super::*;
 
 fn compensator() -> Compensator<f64, 0> {
-    Compensator::try_new(&Model::try_new(Some(cable(0.6)), &[]).unwrap()).unwrap()
+    Compensator::try_new(&Model::try_new(Some(paper(0.6)), &[]).unwrap()).unwrap()
 }
 
 /// A sample, and what is desired in it.
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON * 100.0;
 /// A drive that changes commands of some samples: what the cable has transmitted beside what was
 /// desired, at the worst after the last of them.
 fn worst_after(tell: bool, drive: impl Fn(u32, f64) -> f64) -> f64 {
-    let (compensator, cable) = (compensator(), cable(0.6));
+    let (compensator, cable) = (compensator(), paper(0.6));
     let (mut state, mut worst) = (CompensatorState::new(), 0.0_f64);
     let (mut true_cable, mut twin) = (BoucWenState::new(), BoucWenState::new());
     for k in 0..6000 {
@@ -85,7 +85,7 @@ fn a_command_that_went_out_is_no_news() {
 
 #[test]
 fn after_a_bad_sample_the_input_moves_from_where_it_was_held() {
-    let (compensator, cable) = (compensator(), cable(0.6));
+    let (compensator, cable) = (compensator(), paper(0.6));
     let (mut state, mut true_cable) = (CompensatorState::new(), BoucWenState::new());
     for k in 0..500 {
         let out = compensator.step(&mut state, &at(4 * k).0);

@@ -34,6 +34,7 @@ fn other_gains_take_over_without_a_jump_and_keep_the_estimates() {
         s.theta = [Estimator::fixed(0.0).within(-1e-6, 1e-6)];
     });
     let (before, input) = (state, at(3.0, -3.0, 0.1));
+    assert!(!to.is_valid(&state), "theta_hat is above its new box");
     to.bumpless_transfer(&mut state, &input);
     assert_eq!(estimates(&state)[..2], estimates(&before)[..2]);
     assert!(to.is_valid(&state), "theta_hat is in its new box");

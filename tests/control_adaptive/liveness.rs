@@ -14,8 +14,8 @@ const MARGIN: f64 = 1e-3;
 
 /// A law, a sample time, and errors of both signs that do not end by themselves.
 #[derive(Debug, Clone, Copy)]
-struct Journey<T: Real> {
-    law: Adaptive<T, 2>,
+pub(super) struct Journey<T: Real> {
+    pub(super) law: Adaptive<T, 2>,
     dt: T,
     reference: T,
     regressors: [T; 2],
@@ -53,7 +53,7 @@ fn estimator(low: f64, high: f64) -> impl Strategy<Value = Estimator<f64>> {
 }
 
 /// Admissible laws over several decades of every number.
-fn journey<T: Real>(is_lag: bool) -> impl Strategy<Value = Journey<T>> {
+pub(super) fn journey<T: Real>(is_lag: bool) -> impl Strategy<Value = Journey<T>> {
     let gains = (
         over_decades(0.5, 50.0),
         over_decades(0.5, 20.0),

@@ -17,22 +17,6 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use shared::*;
 
-/// An effect with plausible shapes, none of them round.
-fn make<T: Real>(name: &str) -> Effect<T> {
-    let shapes: &[f64] = match name {
-        "stribeck" => &[0.6, 1.7],
-        "capstan" => &[0.7, 0.3],
-        "ripple" => &[3.3, 0.4],
-        "tone" => &[1.9, 0.8],
-        "hardening" | "curve-position" | "curve-velocity" => &[0.7, 0.4],
-        _ => &[0.7],
-    };
-    let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();
-    Effect::try_from_name(name, &shapes)
-        .or_else(|_| Effect::try_from_name(name, &[]))
-        .unwrap()
-}
-
 fn names() -> impl Iterator<Item = &'static str> {
     CATALOGUE.iter().map(|info| info.name)
 }

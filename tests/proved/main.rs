@@ -3,6 +3,9 @@
 //! The same functions: `proofs/properties`. A harness tries every state and one step; here a
 //! few thousand runs, but with the controller, the plant and the libm that ship.
 
+// Clippy's allowance covers the test functions, not what they share.
+#![allow(clippy::unwrap_used)]
+
 mod feed_forwards;
 // The whole of what the harnesses ask; what tests/effects and tests/faults ask is not asked again.
 #[allow(dead_code)]

@@ -1,8 +1,12 @@
 //! What the tests of several binaries share.
 
 // Each binary uses some of it.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used)]
 
+use bowden::effect::Effect;
+use bowden::hysteresis::BoucWen;
+use bowden::transmission::Transmission;
+use bowden::Real;
 use proptest::prelude::*;
 
 /// The same with a change.
@@ -16,6 +20,28 @@ pub fn with<S>(mut of: S, change: impl FnOnce(&mut S)) -> S {
 pub fn near(got: f64, expected: f64, within: f64) {
     let error = (got - expected).abs();
     assert!(error < within, "{got} instead of {expected}, by {error:e}");
+}
+
+/// The paper's first cable with a knee of this sigma.
+pub fn paper<T: Real>(sigma: f64) -> Transmission<T> {
+    let [rho, sigma, n] = [0.095_82, sigma, 3.871].map(T::from_f64);
+    let [b, kappa_eta, t0] = [0.9978, 7.004, 0.051_74].map(T::from_f64);
+    Transmission::torque(b, kappa_eta, t0, BoucWen::try_new(rho, sigma, n).unwrap()).unwrap()
+}
+
+/// An effect with plausible shapes, none of them round.
+pub fn make<T: Real>(name: &str) -> Effect<T> {
+    let shapes: &[f64] = match name {
+        "stribeck" => &[0.6, 1.7],
+        "capstan" => &[0.7, 0.3],
+        "ripple" => &[3.3, 0.4],
+        "tone" => &[1.9, 0.8],
+        "hardening" | "curve-position" | "curve-velocity" => &[0.7, 0.4],
+        _ => &[0.7],
+    };
+    let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();
+    let shaped = Effect::try_from_name(name, &shapes);
+    shaped.unwrap_or_else(|_| Effect::try_from_name(name, &[]).unwrap())
 }
 
 /// A number between two, spread evenly over its logarithm.
