@@ -213,8 +213,10 @@ fn a_rounder_knee_costs_less_than_a_lower_loop() {
 }
 
 #[test]
-fn a_bad_desired_output_holds_the_input() {
+fn a_bad_desired_output_holds_the_input_and_the_first_one_is_for_eta_as_it_is() {
     let inverse = paper::<f64>(0.6).inverse().unwrap();
+    let input = inverse.step(&mut BoucWenState::with_eta(0.4).unwrap(), 1.0);
+    near(paper(0.6).output(input, 0.4), 1.0, 1e-14); // rounding
     let mut state = BoucWenState::new();
     assert_eq!(inverse.step(&mut state, f64::NAN), 0.0);
     assert_eq!(state, BoucWenState::new());

@@ -170,7 +170,8 @@ fn gains_of_opposite_signs_and_a_safe_command_outside_the_limits_are_refused() {
     assert_eq!(refused(outside), Error::Inadmissible(condition));
     let weight = Fallback::try_new(20, 0.0).unwrap().with_weight(0);
     assert_eq!(weight, Err(Error::OutOfRange("weight")));
-    for change in [outside, |s| s.k_i = -18.0, |s| s.k_d = -2.0] {
+    let reversed: Change = |s| (s.k_p, s.k_i, s.k_d) = (-30.0, -18.0, 2.0);
+    for change in [outside, reversed, |s| s.k_i = -18.0, |s| s.k_d = -2.0] {
         assert!(matches!(refused(change), Error::Inadmissible(_)));
     }
     // A velocity sensor may well count the other way.

@@ -115,8 +115,8 @@ impl<T: Real> Line<T> {
             let pull = lambda * s;
             self.beta = adapted(&law.beta, self.beta, dt, -pull * ubar);
             self.delta = adapted(&law.delta, self.delta, dt, pull * t);
-            for i in 0..2 {
-                self.theta[i] = adapted(&law.theta[i], self.theta[i], dt, -pull * x[i]);
+            for (i, x) in x.into_iter().enumerate() {
+                self.theta[i] = adapted(&law.theta[i], self.theta[i], dt, -pull * x);
             }
         }
         self.command = command;
