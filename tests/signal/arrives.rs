@@ -37,7 +37,9 @@ fn arrives<T: Real>(
     // The ramp takes the way at its rate, a thousandth more for the rounding of rate·dt. The lag then
     // leaves (tau/(tau + dt))^n of the way, until that is an ulp.
     let digits = -T::epsilon().as_f64().ln();
-    let by_lag = (digits + 10.0) / (1.0 + 1.0 / lags.max(1e-9)).ln();
+    // The digits are of the target: a way far longer than it takes as many more.
+    let more = 1.0 + (way / wanted.abs().as_f64()).ln().max(9.0);
+    let by_lag = (digits + more) / (1.0 + 1.0 / lags.max(1e-9)).ln();
     let most = 1.001 * samples + by_lag.max(0.0) + 3.0;
     let (mut last, mut taken) = (from, 0.0);
     let rises = wanted > from;
