@@ -1,8 +1,5 @@
 //! The relay experiment: exact limit cycles, the gains that follow, faults, and that it ends.
 
-// Clippy's allowance covers the test functions, not what they share.
-#![allow(clippy::panic)]
-
 mod exact;
 mod faults;
 mod gains;
@@ -11,12 +8,13 @@ mod measured;
 mod plants;
 mod settings;
 
-use bowden::control::{Fallback, Limits, Output, Relay, RelaySettings, RelayState, Ultimate};
-use bowden::Real;
+use super::*;
 use plants::{Plant, Sampled};
 
+type Settings<T> = RelaySettings<T>;
+
 /// Unit relay about zero, without hysteresis.
-fn usual<T: Real>() -> RelaySettings<T> {
+fn usual<T: Real>() -> Settings<T> {
     let of = T::from_f64;
     RelaySettings {
         reference: of(0.0),
@@ -33,11 +31,15 @@ fn usual<T: Real>() -> RelaySettings<T> {
     }
 }
 
+fn relay<T: Real>(change: impl FnOnce(&mut Settings<T>)) -> Relay<T> {
+    Relay::try_new(with(usual(), change)).unwrap()
+}
+
 /// Runs the experiment on a plant until it ends.
 fn ended<T: Real>(
-    settings: RelaySettings<T>,
+    settings: Settings<T>,
     plant: &Plant,
-    sampled: &mut Sampled,
+    mut sampled: Sampled,
 ) -> (Output<T>, RelayState<T>) {
     let relay = Relay::try_new(settings).unwrap();
     let (mut state, mut plant) = (RelayState::new(), plant.clone());
@@ -54,11 +56,7 @@ fn ended<T: Real>(
 }
 
 /// The result of an experiment that succeeds.
-fn result<T: Real>(
-    settings: RelaySettings<T>,
-    plant: &Plant,
-    sampled: &mut Sampled,
-) -> Ultimate<f64> {
+fn result<T: Real>(settings: Settings<T>, plant: &Plant, sampled: Sampled) -> Ultimate<f64> {
     let (out, state) = ended(settings, plant, sampled);
     let Some(it) = state.result() else {
         panic!("{:?} after {} cycles", out.status, state.cycles());

@@ -1,8 +1,7 @@
 //! The equations of the law, one by one: what the paper derives from them holds.
 
+use super::*;
 use bowden::control::law;
-use bowden::control::SmoothSign;
-use proptest::prelude::*;
 
 /// A plant (11) with two regressors, the law's gains and one instant of the closed loop.
 #[derive(Debug, Clone)]

@@ -1,11 +1,6 @@
 //! One step against the paper's equations, written out; limits; refusals.
 
-use super::{lag, literal};
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Fault, Form,
-    Leakage, Limits, SmoothSign, Status,
-};
-use bowden::Error;
+use super::*;
 
 #[test]
 fn a_step_is_equations_17_to_26() {
@@ -61,9 +56,10 @@ fn a_refusal_says_which_setting_or_condition() {
     use Error::{Inadmissible, NonFinite, OutOfRange};
     type Change = fn(&mut AdaptiveSettings<f64, 1>);
     #[rustfmt::skip]
-    let cases: [(Change, Error); 11] = [
+    let cases: [(Change, Error); 12] = [
         (|s| s.gain = 0.0, OutOfRange("gain")),
         (|s| s.lambda = f64::NAN, NonFinite("lambda")),
+        (|s| s.longest_dt = -1.0, OutOfRange("longest_dt")),
         (|s| s.epsilon = -1.0, OutOfRange("epsilon")),
         (|s| s.theta = [Estimator::fixed(9.0).within(-5.0, 5.0)], OutOfRange("theta.initial")),
         (|s| s.delta.gain = -1.0, OutOfRange("delta.gain")),
@@ -78,99 +74,57 @@ fn a_refusal_says_which_setting_or_condition() {
         }, Inadmissible("the safe command lies within the limits")),
     ];
     for (change, error) in cases {
-        let mut settings = lag();
-        change(&mut settings);
-        assert_eq!(Adaptive::try_new(settings).err(), Some(error));
+        assert_eq!(Adaptive::try_new(with(lag(), change)).err(), Some(error));
     }
 }
 
 #[test]
 fn the_step_that_is_offered_is_admissible_and_a_longer_one_is_not() {
-    let sharp = AdaptiveSettings {
-        epsilon: 0.05,
-        ..lag()
-    };
+    let sharp = with(lag(), |s| s.epsilon = 0.05);
     let largest = sharp.largest_step().unwrap();
     // h·lambda·g⁺·(k + Dmax/eps) = 1 with 8·1.1·(24 + 140).
-    assert!((largest - 1.0 / 1443.2).abs() < 1e-12);
-    let at = |step| {
-        let form = Form::FirstOrder {
-            step,
-            plant_gain: 1.0,
-        };
-        Adaptive::try_new(AdaptiveSettings { form, ..sharp })
+    near(largest, 1.0 / 1443.2, 1e-12);
+    let plant_gain = 1.0;
+    let of = |step| {
+        Adaptive::try_new(with(sharp, |s| {
+            s.form = Form::FirstOrder { step, plant_gain }
+        }))
     };
-    assert!(at(largest * 1.000_001).is_err());
-    let law = at(largest).unwrap();
+    assert!(of(largest * 1.000_001).is_err());
+    let law = of(largest).unwrap();
     let mut state = AdaptiveState::new(&law);
-    let input = AdaptiveInput::new(largest, 1.0, 0.0, [0.0]);
-    assert_eq!(law.step_with_terms(&mut state, &input).status, Status::Good);
-    let late = AdaptiveInput {
-        dt: largest * 1.01,
-        ..input
-    };
-    assert_eq!(
-        law.step(&mut state, &late).status,
-        Status::Held(Fault::DtTooLong)
-    );
+    let late = Status::Held(Fault::DtTooLong);
+    for (dt, status) in [(largest, Status::Good), (largest * 1.01, late)] {
+        let input = with(at(1.0, 0.0, 0.0), |at| at.dt = dt);
+        assert_eq!(law.step(&mut state, &input).status, status);
+    }
 }
 
 #[test]
 fn against_a_limit_nothing_winds_up_and_the_command_comes_back_at_once() {
-    let limits = Limits::try_new(-5.0, 5.0).unwrap();
-    for settings in [literal(), lag()] {
-        let law = Adaptive::try_new(AdaptiveSettings { limits, ..settings }).unwrap();
-        let mut state = AdaptiveState::new(&law);
-        let short = AdaptiveInput::new(0.001, 30.0, 4.0, [0.3]);
+    for settings in both() {
+        let law = law(settings, |s| s.limits = range(-5.0, 5.0));
+        let (mut state, short) = (AdaptiveState::new(&law), at(30.0, 4.0, 0.3));
         for _ in 0..50 {
             law.step(&mut state, &short);
         }
-        let wound = state;
+        let wound = (
+            state.accumulated_error(),
+            state.beta_hat(),
+            state.theta_hat(),
+        );
         for _ in 0..60_000 {
             let output = law.step_with_terms(&mut state, &short);
             assert!(output.terms.limited && output.command == 5.0);
         }
-        assert_eq!(state.accumulated_error(), wound.accumulated_error());
-        assert_eq!(state.beta_hat(), wound.beta_hat());
-        assert_eq!(state.theta_hat(), wound.theta_hat());
+        let now = (
+            state.accumulated_error(),
+            state.beta_hat(),
+            state.theta_hat(),
+        );
+        assert_eq!(now, wound);
         // A minute at the limit, and it leaves it with the first sample that allows.
-        let over = AdaptiveInput::new(0.001, 4.0, 5.0, [0.3]);
-        assert!(law.step(&mut state, &over).command < 5.0);
-    }
-}
-
-#[test]
-fn a_frozen_law_keeps_its_estimates_and_integrates_all_the_same() {
-    let law = Adaptive::try_new(AdaptiveSettings {
-        frozen: true,
-        ..literal()
-    })
-    .unwrap();
-    let mut state = AdaptiveState::new(&law);
-    for _ in 0..100 {
-        law.step_with_terms(&mut state, &AdaptiveInput::new(0.001, 3.0, 1.0, [1.0]));
-    }
-    assert_eq!((state.beta_hat(), state.delta_hat()), (1.0, 1.0));
-    assert_eq!(state.theta_hat(), [0.0]);
-    assert!((state.accumulated_error() + 0.2).abs() < 1e-15);
-}
-
-#[test]
-fn the_feed_forward_is_added_to_the_command_in_either_form() {
-    for settings in [literal(), lag()] {
-        let law = Adaptive::try_new(settings).unwrap();
-        let (mut with, mut without) = (AdaptiveState::new(&law), AdaptiveState::new(&law));
-        for step in 0..20 {
-            let plain = AdaptiveInput::new(0.001, 3.0, 0.1 * f64::from(step), [0.2]);
-            let fed = AdaptiveInput {
-                feed_forward: 2.5 * f64::from(step % 3),
-                ..plain
-            };
-            let a = law.step_with_terms(&mut with, &fed);
-            let b = law.step_with_terms(&mut without, &plain);
-            assert_eq!(a.terms.law, b.terms.law);
-            assert_eq!(a.command, b.command + fed.feed_forward);
-        }
+        assert!(law.step(&mut state, &at(4.0, 5.0, 0.3)).command < 5.0);
     }
 }
 
@@ -188,11 +142,11 @@ fn either_smooth_sign_is_odd_bounded_and_no_steeper_than_one() {
             worst = worst.max(x * (1.0 - here));
         }
         // The grid of 1e-4 misses the top by at most 1e-8 (its curvature is about one).
-        assert!((worst - sign.residue::<f64>()).abs() < 1e-8);
+        near(worst, sign.residue(), 1e-8);
         assert_eq!(sign.of(f64::INFINITY), 1.0);
         assert!(sign.of(f64::NAN).is_nan());
     }
     // W(1/e) solves w·e^w = 1/e.
     let w = SmoothSign::Tanh.residue::<f64>();
-    assert!((w * w.exp() - (-1.0_f64).exp()).abs() < 1e-16);
+    near(w * w.exp(), (-1.0_f64).exp(), 1e-16);
 }

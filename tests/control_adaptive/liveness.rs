@@ -1,12 +1,6 @@
 //! What the law must do: it reaches its limits, it comes back, what waits moves again.
 
-use super::{cast_estimator, lag, literal};
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Fault, Form,
-    Leakage, Limits, OnMissing, SmoothSign, Status,
-};
-use bowden::Real;
-use proptest::prelude::*;
+use super::*;
 
 /// Laws of each form, half of them in each float.
 const LAWS: u32 = 2000;
@@ -14,19 +8,14 @@ const LAWS: u32 = 2000;
 /// Most samples of one way, so that all laws take seconds.
 const LONGEST_WAY: f64 = 1500.0;
 
-/// A number between two, spread evenly over its logarithm.
-fn over_decades(from: f64, to: f64) -> impl Strategy<Value = f64> {
-    (from.ln()..to.ln()).prop_map(f64::exp)
-}
-
 /// How far beyond its limit the law must ask before the command counts as being there, as a share
 /// of the range: above the rounding of any sum here, and what the lag approaches within.
 const MARGIN: f64 = 1e-3;
 
 /// A law, a sample time, and errors of both signs that do not end by themselves.
 #[derive(Debug, Clone, Copy)]
-struct Journey<T: Real> {
-    law: Adaptive<T, 2>,
+pub(super) struct Journey<T: Real> {
+    pub(super) law: Adaptive<T, 2>,
     dt: T,
     reference: T,
     regressors: [T; 2],
@@ -36,7 +25,11 @@ struct Journey<T: Real> {
 }
 
 fn of<T: Real>(x: T) -> f64 {
-    x.to_f64().unwrap()
+    x.as_f64()
+}
+
+fn to<T: Real>(x: f64) -> T {
+    T::from_f64(x)
 }
 
 /// An estimator with a box around some value, a gain and any leakage.
@@ -59,18 +52,8 @@ fn estimator(low: f64, high: f64) -> impl Strategy<Value = Estimator<f64>> {
     })
 }
 
-/// A range, which the slew rate takes so many seconds to go through.
-fn limited<T: Real>(low: f64, high: f64, seconds: Option<f64>) -> Limits<T> {
-    let limits = Limits::try_new(T::from_f64(-low), T::from_f64(high)).unwrap();
-    seconds.map_or(limits, |seconds| {
-        limits
-            .with_slew(T::from_f64((low + high) / seconds))
-            .unwrap()
-    })
-}
-
 /// Admissible laws over several decades of every number.
-fn journey<T: Real>(is_lag: bool) -> impl Strategy<Value = Journey<T>> {
+pub(super) fn journey<T: Real>(is_lag: bool) -> impl Strategy<Value = Journey<T>> {
     let gains = (
         over_decades(0.5, 50.0),
         over_decades(0.5, 20.0),
@@ -98,58 +81,49 @@ fn journey<T: Real>(is_lag: bool) -> impl Strategy<Value = Journey<T>> {
         -40.0..40.0_f64,
         [over_decades(0.01, 30.0), over_decades(0.01, 30.0)],
     );
-    (gains, boxes, times, range, sample).prop_map(
-        move |((gain, lambda, epsilon, smooth_sign), boxes, times, range, sample)| {
-            let (beta, delta, theta_0, theta_1) = boxes;
-            let (loop_gain, share, free_dt) = times;
-            let (low, high, slew, z_limit) = range;
-            // The largest step of the lag form is 1/(lambda·max(1, loop_gain)).
-            let dt = if is_lag {
-                share * 0.999 / (lambda * loop_gain.max(1.0))
-            } else {
-                free_dt
-            };
-            let form = if is_lag {
-                Form::FirstOrder {
-                    step: T::from_f64(dt),
-                    plant_gain: T::from_f64(
-                        loop_gain / (beta.high * (gain + delta.high / epsilon)),
-                    ),
-                }
-            } else {
-                Form::AsPublished {
-                    time_constant: T::from_f64(0.2 * dt * loop_gain),
-                }
-            };
-            let limits = limited(low, high, slew.map(|samples| samples * dt));
-            let settings = AdaptiveSettings {
-                smooth_sign,
-                beta: cast_estimator(&beta),
-                delta: cast_estimator(&delta),
-                theta: [cast_estimator(&theta_0), cast_estimator(&theta_1)],
-                z_limit: z_limit.map_or(T::HIGHEST, T::from_f64),
-                ..AdaptiveSettings::new(
-                    form,
-                    T::from_f64(gain),
-                    T::from_f64(lambda),
-                    T::from_f64(epsilon),
-                    limits,
-                    T::from_f64(10.0),
-                    Fallback::try_new(20, T::zero()).unwrap(),
-                )
-            };
-            let (reference, [x_0, x_1], feed_forward, errors) = sample;
-            let journey = Journey {
-                law: Adaptive::try_new(settings).unwrap(),
-                dt: T::from_f64(dt),
-                reference: T::from_f64(reference),
-                regressors: [T::from_f64(x_0), T::from_f64(x_1)],
-                feed_forward: T::from_f64(feed_forward),
-                errors,
-            };
-            journey.in_time()
-        },
-    )
+    (gains, boxes, times, range, sample).prop_map(move |(gains, boxes, times, range, sample)| {
+        let (gain, lambda, epsilon, smooth_sign) = gains;
+        let (beta, delta, theta_0, theta_1) = boxes;
+        let (loop_gain, share, free_dt) = times;
+        let (low, high, slew, z_limit) = range;
+        // The largest step of the lag form is 1/(lambda·max(1, loop_gain)).
+        let largest = 0.999 / (lambda * loop_gain.max(1.0));
+        let dt = if is_lag { share * largest } else { free_dt };
+        let plant_gain = loop_gain / (beta.high * (gain + delta.high / epsilon));
+        let form = match is_lag {
+            true => Form::FirstOrder {
+                step: to(dt),
+                plant_gain: to(plant_gain),
+            },
+            false => Form::AsPublished {
+                time_constant: to(0.2 * dt * loop_gain),
+            },
+        };
+        let limits = Limits::try_new(to::<T>(-low), to(high)).unwrap();
+        // A range that the slew rate takes so many samples to go through.
+        let slew = slew.map(|samples| to((low + high) / (samples * dt)));
+        let limits = slew.map_or(limits, |slew| limits.with_slew(slew).unwrap());
+        let safe = Fallback::try_new(20, T::zero()).unwrap();
+        let [gain, lambda, epsilon] = [gain, lambda, epsilon].map(to);
+        let settings = AdaptiveSettings {
+            smooth_sign,
+            beta: cast_estimator(&beta),
+            delta: cast_estimator(&delta),
+            theta: [cast_estimator(&theta_0), cast_estimator(&theta_1)],
+            z_limit: z_limit.map_or(T::HIGHEST, to),
+            ..AdaptiveSettings::new(form, gain, lambda, epsilon, limits, to(10.0), safe)
+        };
+        let (reference, regressors, feed_forward, errors) = sample;
+        let journey = Journey {
+            law: Adaptive::try_new(settings).unwrap(),
+            dt: to(dt),
+            reference: to(reference),
+            regressors: regressors.map(to),
+            feed_forward: to(feed_forward),
+            errors,
+        };
+        journey.in_time()
+    })
 }
 
 impl<T: Real> Journey<T> {
@@ -165,28 +139,30 @@ impl<T: Real> Journey<T> {
 
     /// A sample whose output is behind the reference by `error`, to the side of `sign`.
     fn at(&self, sign: f64, error: f64) -> AdaptiveInput<T, 2> {
-        let measured = self.reference - T::from_f64(sign * error);
-        AdaptiveInput {
-            feed_forward: self.feed_forward,
-            ..AdaptiveInput::new(self.dt, self.reference, measured, self.regressors)
-        }
+        let measured = self.reference - to(sign * error);
+        let at = AdaptiveInput::new(self.dt, self.reference, measured, self.regressors);
+        with(at, |at| at.feed_forward = self.feed_forward)
     }
 
     fn width(&self) -> f64 {
+        of(self.limit(1.0)) - of(self.limit(-1.0))
+    }
+
+    fn limit(&self, sign: f64) -> T {
         let limits = self.law.settings().limits;
-        of(limits.high()) - of(limits.low())
+        if sign > 0.0 {
+            limits.high()
+        } else {
+            limits.low()
+        }
     }
 
     /// |z| from which on the law asks for more than the limit on this side, wherever the estimates
     /// are in their boxes: (23) with s = -sign·(e + lambda·|z|), where delta_hat·T helps.
     fn z_at_limit(&self, sign: f64, error: f64) -> f64 {
         let s = self.law.settings();
-        let limit = of(if sign > 0.0 {
-            s.limits.high()
-        } else {
-            s.limits.low()
-        });
-        let wanted = sign * (limit - of(self.feed_forward)) + MARGIN * self.width();
+        let limit = of(self.limit(sign)) - of(self.feed_forward);
+        let wanted = sign * limit + MARGIN * self.width();
         let virtual_command = (wanted / of(s.beta.low)).max(0.0);
         let theta = s.theta.iter().zip(&self.regressors);
         let against: f64 = theta
@@ -243,21 +219,14 @@ impl<T: Real> Journey<T> {
             prop_assert_eq!(z.0, z.1);
         } else {
             let change = of(at.dt) * of(terms.error);
-            prop_assert!(
-                close(z.1, z.0, change, change.abs(), -s.z_limit, s.z_limit),
-                "{z:?}"
-            );
+            let moved = close(z.1, z.0, change, change.abs(), -s.z_limit, s.z_limit);
+            prop_assert!(moved, "{z:?}");
         }
         let waits = asks_more(terms.s);
         let pull = of(s.lambda) * of(terms.s);
         let theta = |i: usize| {
-            let drive = -pull * of(at.regressors[i]);
-            (
-                before.theta_hat()[i],
-                state.theta_hat()[i],
-                s.theta[i],
-                drive,
-            )
+            let (from, got) = (before.theta_hat()[i], state.theta_hat()[i]);
+            (from, got, s.theta[i], -pull * of(at.regressors[i]))
         };
         let beta = -pull * of(terms.virtual_command);
         let delta = pull * of(terms.smooth_sign);
@@ -277,10 +246,8 @@ impl<T: Real> Journey<T> {
             let h = of(at.dt) / (1.0 + of(at.dt) * leakage);
             let change = h * (pushed - leaked);
             let terms = h * (pushed.abs() + leaked.abs());
-            prop_assert!(
-                close(got, from, change, terms, estimator.low, estimator.high),
-                "{from} {got} {change}"
-            );
+            let moved = close(got, from, change, terms, estimator.low, estimator.high);
+            prop_assert!(moved, "{from} {got} {change}");
         }
         Ok((out.command, waits))
     }
@@ -291,11 +258,7 @@ impl<T: Real> Journey<T> {
         let error = self.errors[usize::from(sign < 0.0)];
         let (at, most) = (self.at(sign, error), self.most(state, sign, error));
         // Of the error as the float has it.
-        let (limit, z_end) = if sign > 0.0 {
-            (s.limits.high(), -s.z_limit)
-        } else {
-            (s.limits.low(), s.z_limit)
-        };
+        let (limit, z_end) = (self.limit(sign), to::<T>(-sign) * s.z_limit);
         let z_is_enough = of(s.z_limit) >= self.z_at_limit(sign, error);
         let kick = match s.form {
             Form::AsPublished { time_constant } => 20.0 * of(time_constant) / of(self.dt),
@@ -314,11 +277,7 @@ impl<T: Real> Journey<T> {
             if !z_is_enough && state.accumulated_error() == z_end {
                 break;
             }
-            prop_assert!(
-                on_the_way <= most,
-                "{command} of {limit} after {on_the_way} of {most}, z = {}",
-                state.accumulated_error()
-            );
+            prop_assert!(on_the_way <= most, "{command} of {limit}, {state:?}");
         }
         Ok(())
     }
@@ -334,17 +293,12 @@ impl<T: Real> Journey<T> {
 }
 
 fn every_law_travels(is_lag: bool) {
-    let laws = ProptestConfig {
-        cases: LAWS / 2,
-        failure_persistence: None,
-        rng_seed: proptest::test_runner::RngSeed::Fixed(u64::from(is_lag)),
-        ..ProptestConfig::default()
-    };
+    let laws = seeded(LAWS / 2, u64::from(is_lag));
     let mut runner = proptest::test_runner::TestRunner::new(laws);
-    let travels = |journey: Journey<f32>| journey.travels();
-    runner.run(&journey::<f32>(is_lag), travels).unwrap();
-    let travels = |journey: Journey<f64>| journey.travels();
-    runner.run(&journey::<f64>(is_lag), travels).unwrap();
+    let single = |journey: Journey<f32>| journey.travels();
+    runner.run(&journey(is_lag), single).unwrap();
+    let double = |journey: Journey<f64>| journey.travels();
+    runner.run(&journey(is_lag), double).unwrap();
 }
 
 #[test]
@@ -357,86 +311,69 @@ fn any_law_of_the_lag_form_reaches_one_limit_and_then_the_other() {
     every_law_travels(true);
 }
 
-/// A NaN encoder for a second: its estimate, and those of the others, wait; then all move again.
 #[test]
 fn estimates_that_a_dropped_regressor_held_move_again_with_the_first_good_sample() {
-    for settings in [literal(), lag()] {
-        let law = Adaptive::try_new(AdaptiveSettings {
-            missing: [OnMissing::DropRegressor],
-            ..settings
-        })
-        .unwrap();
+    for settings in both() {
+        let law = law(settings, |s| s.missing = [OnMissing::DropRegressor]);
         let mut state = AdaptiveState::new(&law);
-        let at = |x| AdaptiveInput::new(0.001, 3.0, 2.9, [x]);
-        law.step(&mut state, &at(0.3));
-        let estimates = |state: &AdaptiveState<f64, 1>| {
-            [state.beta_hat(), state.delta_hat(), state.theta_hat()[0]]
-        };
+        law.step(&mut state, &at(3.0, 2.9, 0.3));
         let held = estimates(&state);
         for k in 0..1000 {
-            let status = law.step(&mut state, &at(f64::NAN)).status;
-            assert_eq!(status, Status::Degraded(Fault::Regressor(0)), "{k}");
-            assert_eq!(estimates(&state), held);
+            // The law without that term.
+            let wanted = law.terms(&state, &at(3.0, 2.9, 0.0)).unlimited;
+            let out = law.step(&mut state, &at(3.0, 2.9, f64::NAN));
+            assert_eq!(out.status, Status::Degraded(Fault::Regressor(0)), "{k}");
+            assert_eq!((out.command, estimates(&state)), (wanted, held));
         }
+        // The torque sensor is not an encoder.
+        let deaf = law.step(&mut state.clone(), &lost(at(3.0, 2.9, f64::NAN)));
+        assert_eq!(deaf.status, Status::Held(Fault::Measured));
         // The loop is closed all the time: -0.1 N·m for 1.001 s.
-        assert!((state.accumulated_error() + 0.1001).abs() < 1e-12);
-        assert_eq!(law.step(&mut state, &at(0.3)).status, Status::Good);
-        let moved = estimates(&state);
-        assert!(moved.iter().zip(&held).all(|(new, old)| new != old));
+        near(state.accumulated_error(), -0.1001, 1e-12);
+        let status = law.step(&mut state, &at(3.0, 2.9, 0.3)).status;
+        assert_eq!(status, Status::Good);
+        assert!((0..3).all(|i| estimates(&state)[i] != held[i]));
     }
 }
 
 #[test]
 fn estimates_that_were_frozen_move_again_with_the_first_sample_of_a_law_that_is_not() {
-    for settings in [literal(), lag()] {
-        let free = Adaptive::try_new(settings).unwrap();
-        let frozen = Adaptive::try_new(AdaptiveSettings {
-            frozen: true,
-            ..settings
-        })
-        .unwrap();
-        let at = AdaptiveInput::new(0.001, 3.0, 2.9, [0.3]);
-        let mut state = AdaptiveState::new(&frozen);
+    for settings in both() {
+        let (free, frozen) = (law(settings, |_| ()), law(settings, |s| s.frozen = true));
+        let (at, mut state) = (at(3.0, 2.9, 0.3), AdaptiveState::new(&frozen));
+        let start = estimates(&state);
         for _ in 0..1000 {
             frozen.step(&mut state, &at);
         }
-        assert_eq!(state.beta_hat(), settings.beta.initial);
-        assert_eq!(state.delta_hat(), settings.delta.initial);
-        assert_eq!(state.theta_hat()[0], settings.theta[0].initial);
+        assert_eq!(estimates(&state), start);
+        // z integrates all the same: -0.1 N·m for 1 s.
+        near(state.accumulated_error(), -0.1, 1e-12);
         free.step(&mut state, &at);
-        assert!(state.beta_hat() != settings.beta.initial);
-        assert!(state.delta_hat() != settings.delta.initial);
-        assert!(state.theta_hat()[0] != settings.theta[0].initial);
+        assert!((0..3).all(|i| estimates(&state)[i] != start[i]));
     }
 }
 
 /// In f32 what a sample adds is below half an ulp of the sum: it is added all the same.
 #[test]
 fn in_f32_the_accumulated_error_moves_by_changes_below_its_rounding() {
-    for is_lag in [false, true] {
-        let form = if is_lag {
-            Form::FirstOrder {
-                step: 1e-4,
-                plant_gain: 1.0,
-            }
-        } else {
-            Form::AsPublished {
-                time_constant: 0.01,
-            }
-        };
-        let law = Adaptive::try_new(AdaptiveSettings::<f32, 0>::unlimited(form, 24.0, 8.0, 0.2));
-        let (law, mut state) = (law.unwrap(), AdaptiveState::new(&law.unwrap()));
+    let (step, plant_gain, time_constant) = (1e-4, 1.0, 0.01);
+    for form in [
+        Form::AsPublished { time_constant },
+        Form::FirstOrder { step, plant_gain },
+    ] {
+        let settings = AdaptiveSettings::<f32, 0>::unlimited(form, 24.0, 8.0, 0.2);
+        let law = Adaptive::try_new(settings).unwrap();
+        let mut state = AdaptiveState::new(&law);
         for _ in 0..10_000 {
             law.step(&mut state, &AdaptiveInput::new(1e-4, 0.0, 10.0, []));
         }
         // 1e-7 a sample, an eighth of the distance of two floats at 10.
         let from = state.accumulated_error();
-        let error = 1e-3_f32;
         for _ in 0..100_000 {
-            law.step(&mut state, &AdaptiveInput::new(1e-4, 0.0, error, []));
+            law.step(&mut state, &AdaptiveInput::new(1e-4, 0.0, 1e-3, []));
         }
         let moved = f64::from(state.accumulated_error()) - f64::from(from);
         // To that distance at both ends, and the rounding of 1e-4·1e-3.
-        assert!((moved - 0.01).abs() < 2e-6, "{moved}");
+        near(moved, 0.01, 2e-6);
     }
 }

@@ -1,14 +1,12 @@
 //! The curve: the line through its points, constant beyond its ends, and what an adaptive law
 //! learns of it.
 
+use super::*;
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Form};
-use bowden::effect::{EffectState, Inputs, Motion, Quantity};
 use bowden::model::{Model, ModelState, Sample, Source, Term};
-use bowden::{Error, Real};
-use proptest::prelude::*;
 
 /// The output of a curve over the position or the velocity of the input.
-fn at<T: Real>(over: Quantity, points: [(T, T); 5], value: T) -> Result<T, Error> {
+fn value_at<T: Real>(over: Quantity, points: [(T, T); 5], value: T) -> Result<T, Error> {
     let terms = Term::curve(over, Source::Input, points)?;
     let model = Model::<T, 5>::try_new(None, &terms)?;
     let other = T::from_f64(0.3);
@@ -16,14 +14,9 @@ fn at<T: Real>(over: Quantity, points: [(T, T); 5], value: T) -> Result<T, Error
         Quantity::Velocity => (other, value),
         _ => (value, other),
     };
-    let input = Motion {
-        position,
-        velocity,
-        acceleration: other,
-    };
     let sample = Sample {
         dt: T::from_f64(1e-3),
-        input,
+        input: moving(position, velocity, other),
         load: other,
         channels: &[],
     };
@@ -58,11 +51,11 @@ proptest! {
     #[test]
     fn a_curve_is_the_line_through_its_points_and_constant_beyond(points in points(), x in -12.0..12.0_f64) {
         for over in [Quantity::Position, Quantity::Velocity] {
-            let value = at(over, points, x).unwrap();
+            let value = value_at(over, points, x).unwrap();
             // Sums of five terms of at most 18, of which the steepest rises by 18 in 1e-3.
             prop_assert!((value - line(&points, x)).abs() < 1e-10, "{value}");
             for (x, f) in points {
-                prop_assert!((at(over, points, x).unwrap() - f).abs() < 1e-10);
+                prop_assert!((value_at(over, points, x).unwrap() - f).abs() < 1e-10);
             }
         }
     }
@@ -73,7 +66,7 @@ proptest! {
         x in prop::num::f32::NORMAL | prop::num::f32::SUBNORMAL | prop::num::f32::ZERO,
     ) {
         let narrow = points.map(|(x, f)| (x as f32, f as f32));
-        let value = at(Quantity::Velocity, narrow, x).unwrap();
+        let value = value_at(Quantity::Velocity, narrow, x).unwrap();
         let least = narrow.iter().fold(f32::MAX, |least, point| least.min(point.1));
         let most = narrow.iter().fold(f32::MIN, |most, point| most.max(point.1));
         // Five sums of numbers below 18 in single precision.
@@ -90,29 +83,27 @@ fn points_that_make_no_curve_are_refused() {
         (1.0, 2.0),
         (3.0, -1.0),
     ];
-    let with = |index: usize, point| {
-        let mut points = good;
-        points[index] = point;
-        at(Quantity::Position, points, 0.0).err()
+    let refused = |index: usize, point| {
+        let points = with(good, |points| points[index] = point);
+        value_at(Quantity::Position, points, 0.0).err()
     };
-    assert_eq!(with(2, (0.0, 7.0)), None);
-    assert_eq!(with(2, (-1.0, 7.0)), Some(Error::OutOfRange("width")));
-    assert_eq!(with(2, (-1.5, 7.0)), Some(Error::OutOfRange("width")));
-    assert_eq!(with(0, (f64::NAN, 1.0)), Some(Error::NonFinite("x")));
-    assert_eq!(
-        with(4, (f64::INFINITY, 1.0)),
-        Some(Error::NonFinite("width"))
-    );
-    assert_eq!(with(1, (-1.0, f64::NAN)), Some(Error::NonFinite("f")));
+    for (index, point, error) in [
+        (2, (0.0, 7.0), None),
+        (2, (-1.0, 7.0), Some(Error::OutOfRange("width"))),
+        (2, (-1.5, 7.0), Some(Error::OutOfRange("width"))),
+        (0, (f64::NAN, 1.0), Some(Error::NonFinite("x"))),
+        (4, (f64::INFINITY, 1.0), Some(Error::NonFinite("width"))),
+        (1, (-1.0, f64::NAN), Some(Error::NonFinite("f"))),
+    ] {
+        assert_eq!(refused(index, point), error);
+    }
     let apart = [(0.0, f64::MIN), (1.0, f64::MAX)];
     let terms = Term::curve(Quantity::Velocity, Source::Input, apart);
     assert_eq!(terms, Err(Error::NonFinite("f")));
     let over = Term::curve(Quantity::Eta, Source::Input, good);
     assert_eq!(over, Err(Error::OutOfRange("over")));
-    assert_eq!(
-        Term::<f64>::curve(Quantity::Velocity, Source::Input, []),
-        Ok([])
-    );
+    let none = Term::<f64>::curve(Quantity::Velocity, Source::Input, []);
+    assert_eq!(none, Ok([]));
 }
 
 /// Friction with a bell at low speed, which no pair of viscous and Coulomb friction has.
@@ -130,10 +121,8 @@ const FRICTION: [(f64, f64); 8] = [
 /// Root mean square of the torque error over the last 100 of 240 s, and whether all estimates stayed
 /// within their box, with estimators of this gain.
 fn error_with(gain: f64) -> (f64, bool) {
-    let form = Form::FirstOrder {
-        step: 1e-3,
-        plant_gain: 1.0,
-    };
+    let (step, plant_gain) = (1e-3, 1.0);
+    let form = Form::FirstOrder { step, plant_gain };
     let law = Adaptive::try_new(AdaptiveSettings {
         beta: Estimator::fixed(1.0),
         theta: [Estimator::fixed(0.0).within(-8.0, 8.0).adapting(gain, 0.0); 8],
@@ -146,28 +135,14 @@ fn error_with(gain: f64) -> (f64, bool) {
     for k in 0..240_000 {
         let t = f64::from(k) * 1e-3;
         let velocity = 1.3 * (0.3 * t).sin() * (0.053 * t).cos();
-        let motion = Motion {
-            velocity,
-            ..Motion::default()
-        };
-        let at = Inputs {
-            motion,
-            ..Inputs::default()
-        };
+        let at = spoilt(&Inputs::default(), Quantity::Velocity, velocity);
         let regressors = terms.map(|term| term.effect.regressor(&mut EffectState::new(), &at));
         // A stiff drive: the torque answers the command of the sample before.
-        let lost: f64 = terms
-            .iter()
-            .zip(&regressors)
-            .map(|(term, x)| term.gain * x)
-            .sum();
+        let each = terms.iter().zip(&regressors);
+        let lost: f64 = each.map(|(term, x)| term.gain * x).sum();
         let (measured, reference) = (command - lost, 5.0);
-        command = law
-            .step(
-                &mut state,
-                &AdaptiveInput::new(1e-3, reference, measured, regressors),
-            )
-            .command;
+        let input = AdaptiveInput::new(1e-3, reference, measured, regressors);
+        command = law.step(&mut state, &input).command;
         within &= state.theta_hat().iter().all(|theta| theta.abs() <= 8.0);
         if k >= 140_000 {
             sum += (measured - reference).powi(2);

@@ -1,24 +1,16 @@
-//! The late output of a delay, and what a term adds.
+//! The late output of a delay, what a term adds, and the hardening hysteresis against its equation.
 
-use crate::make;
-use crate::memory::stroke;
-use bowden::effect::{EffectState, Inputs};
+use super::*;
 
 /// A tone behind the delay, once its start is forgotten: the largest difference to the tone
 /// that is late by that time.
 fn lateness(late: f64, dt: f64, w: f64) -> f64 {
-    let delay = make::<f64>("delay");
-    let mut state = EffectState::default();
+    let (delay, mut state) = (make::<f64>("delay"), EffectState::default());
     let mut worst: f64 = 0.0;
     for k in 0..4000 {
         let t = dt * f64::from(k);
         let y = (w * t).sin();
-        let at = Inputs {
-            dt,
-            output: y,
-            ..Inputs::default()
-        };
-        let z = y + delay.contribution(late, &mut state, &at);
+        let z = y + delay.contribution(late, &mut state, &out(y, dt));
         if k > 2000 {
             worst = worst.max((z - (w * (t - late)).sin()).abs());
         }
@@ -71,13 +63,7 @@ fn a_contribution_is_gain_times_regressor_but_for_a_late_output() {
 
 #[test]
 fn a_late_output_is_finite_and_a_bad_sample_moves_nothing() {
-    let delay = make::<f64>("delay");
-    let mut state = EffectState::default();
-    let at = |dt, output| Inputs {
-        dt,
-        output,
-        ..Inputs::default()
-    };
+    let (delay, mut state) = (make::<f64>("delay"), EffectState::default());
     for (dt, output, gain) in [
         (0.01, f64::MAX, 1.0),
         (0.01, f64::MIN, 1.0),
@@ -86,22 +72,68 @@ fn a_late_output_is_finite_and_a_bad_sample_moves_nothing() {
         (f64::MIN_POSITIVE, 1.0, f64::MAX),
         (0.01, 1.0, 1e-300),
     ] {
-        assert!(delay
-            .contribution(gain, &mut state, &at(dt, output))
-            .is_finite());
+        let own = delay.contribution(gain, &mut state, &out(output, dt));
+        assert!(own.is_finite());
     }
     let before = state;
-    for (dt, output) in [
-        (-0.1, 1.0),
-        (f64::NAN, 1.0),
-        (0.1, f64::NAN),
-        (0.1, f64::INFINITY),
-    ] {
-        assert_eq!(delay.contribution(1.0, &mut state, &at(dt, output)), 0.0);
+    let (nan, infinity) = (f64::NAN, f64::INFINITY);
+    for (dt, output) in [(-0.1, 1.0), (nan, 1.0), (0.1, nan), (0.1, infinity)] {
+        assert_eq!(delay.contribution(1.0, &mut state, &out(output, dt)), 0.0);
         assert_eq!(state, before);
     }
     // The same sample again: the same lateness, and the memory stays.
-    let held = delay.contribution(0.02, &mut state, &at(0.0, 5.0));
-    assert_eq!(held, delay.contribution(0.02, &mut state, &at(0.0, 5.0)));
+    let held = [(); 2].map(|()| delay.contribution(0.02, &mut state, &out(5.0, 0.0)));
+    assert_eq!(held[0], held[1]);
     assert_eq!(state, before);
+}
+
+/// A step in x by equation: fourth-order Runge-Kutta in small parts.
+fn hardened(w: f64, change: f64, [g, beta]: [f64; 2]) -> f64 {
+    let h = change / 200.0;
+    let slope = |w: f64| {
+        let back = if w * change < 0.0 { 2.0 * beta } else { 0.0 };
+        1.0 + (g + back) * w.abs()
+    };
+    (0..200).fold(w, |w, _| {
+        let a = slope(w);
+        let b = slope(w + 0.5 * h * a);
+        let c = slope(w + 0.5 * h * b);
+        let d = slope(w + h * c);
+        w + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+    })
+}
+
+proptest! {
+    #[test]
+    fn hardening_follows_its_equation_and_stays_within_what_its_stroke_allows(
+        path in prop::collection::vec(-1.0..1.0_f64, 2..60),
+        g in 0.05..3.0_f64,
+        beta in 0.01..5.0_f64,
+    ) {
+        let own = bowden::effect::Hardening::try_new(g, beta).unwrap();
+        let values = along(&own.into(), &stroke(path.iter().copied(), 0.01));
+        prop_assert_eq!(values[0], 0.0);
+        let (mut low, mut high) = (path[0], path[0]);
+        for k in 1..path.len() {
+            low = low.min(path[k]);
+            high = high.max(path[k]);
+            let expected = hardened(values[k - 1], path[k] - path[k - 1], [g, beta]);
+            // Two hundred steps of fourth order; the one that crosses zero has a corner.
+            prop_assert!((values[k] - expected).abs() < 2e-3 * (1.0 + expected.abs()));
+            let bound = (g * (high - low)).exp_m1() / g;
+            // Rounding of sixty exponentials.
+            prop_assert!(values[k].abs() <= bound * (1.0 + 1e-12), "{} of {}", values[k], bound);
+        }
+    }
+}
+
+#[test]
+fn small_reversals_do_not_pump_a_hardening_state_up() {
+    let effect = make::<f64>("hardening");
+    let cycles = (0..20_000).map(|k| if k % 2 == 0 { 1.0 } else { 0.9 });
+    let values = along(&effect, &stroke(std::iter::once(0.0).chain(cycles), 0.01));
+    let most = values.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+    // One stroke of 1 with g = 0.7.
+    assert!(most <= (0.7_f64.exp_m1() / 0.7) * (1.0 + 1e-12), "{most}");
+    assert!(values[20_000] < 0.9, "{}", values[20_000]); // it relaxes into a small loop
 }

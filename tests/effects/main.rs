@@ -1,34 +1,21 @@
 //! The effects: closed forms, parity, units, memory, and inputs of any kind.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod constructed;
 mod curve;
 mod declared;
-mod hardening;
 mod late;
 mod memory;
 mod names;
 mod robust;
+#[path = "../shared/mod.rs"]
+mod shared;
 
-use bowden::effect::{Effect, EffectState, Inputs, Motion, CATALOGUE};
-use bowden::Real;
+use approx::assert_relative_eq;
+use bowden::effect::*;
+use bowden::{Error, Real};
 use proptest::prelude::*;
-
-/// An effect with plausible shapes, none of them round.
-fn make<T: Real>(name: &str) -> Effect<T> {
-    let shapes: &[f64] = match name {
-        "stribeck" => &[0.6, 1.7],
-        "capstan" => &[0.7, 0.3],
-        "ripple" => &[3.3, 0.4],
-        "tone" => &[1.9, 0.8],
-        "hardening" | "curve-position" | "curve-velocity" => &[0.7, 0.4],
-        _ => &[0.7],
-    };
-    let shapes: Vec<T> = shapes.iter().map(|&shape| T::from_f64(shape)).collect();
-    Effect::try_from_name(name, &shapes)
-        .or_else(|_| Effect::try_from_name(name, &[]))
-        .unwrap()
-}
+use proptest::sample::select;
+use shared::*;
 
 fn names() -> impl Iterator<Item = &'static str> {
     CATALOGUE.iter().map(|info| info.name)
@@ -37,23 +24,62 @@ fn names() -> impl Iterator<Item = &'static str> {
 /// The numbers of a situation in one order, for the strategies.
 fn situation<T: Real>(numbers: [T; 11]) -> Inputs<T> {
     let [dt, time, x, v, a, input, input_v, input_a, load, eta, output] = numbers;
+    let (motion, input) = (moving(x, v, a), moving(input, input_v, input_a));
     Inputs {
         dt,
         time,
-        motion: Motion {
-            position: x,
-            velocity: v,
-            acceleration: a,
-        },
-        input: Motion {
-            position: input,
-            velocity: input_v,
-            acceleration: input_a,
-        },
+        motion,
+        input,
         load,
         eta,
         output,
     }
+}
+
+fn moving<T>(position: T, velocity: T, acceleration: T) -> Motion<T> {
+    Motion {
+        position,
+        velocity,
+        acceleration,
+    }
+}
+
+/// Quiet but for the position of the channel.
+fn at<T: Real>(position: T, dt: T) -> Inputs<T> {
+    with(Inputs::default(), |at| {
+        (at.motion.position, at.dt) = (position, dt)
+    })
+}
+
+/// Samples of one channel, all other numbers quiet.
+fn stroke(positions: impl IntoIterator<Item = f64>, dt: f64) -> Vec<Inputs<f64>> {
+    positions
+        .into_iter()
+        .map(|position| at(position, dt))
+        .collect()
+}
+
+/// Quiet but for the output before the stages.
+fn out(output: f64, dt: f64) -> Inputs<f64> {
+    with(Inputs::default(), |at| (at.output, at.dt) = (output, dt))
+}
+
+/// The same with one of its numbers.
+fn spoilt(at: &Inputs<f64>, quantity: Quantity, value: f64) -> Inputs<f64> {
+    let mut at = *at;
+    *match quantity {
+        Quantity::Dt => &mut at.dt,
+        Quantity::Time => &mut at.time,
+        Quantity::Position => &mut at.motion.position,
+        Quantity::Velocity => &mut at.motion.velocity,
+        Quantity::Acceleration => &mut at.motion.acceleration,
+        Quantity::Input => &mut at.input.position,
+        Quantity::Load => &mut at.load,
+        Quantity::Eta => &mut at.eta,
+        Quantity::Output => &mut at.output,
+        other => panic!("{other:?} is new"),
+    } = value;
+    at
 }
 
 prop_compose! {

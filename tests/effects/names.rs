@@ -1,10 +1,6 @@
 //! Names, shapes and their ranges.
 
-use crate::{make, names};
-use bowden::effect::{Effect, Range, CATALOGUE};
-use bowden::Error;
-use proptest::prelude::*;
-use proptest::sample::select;
+use super::*;
 
 proptest! {
     #[test]
@@ -38,35 +34,20 @@ fn every_name_makes_the_effect_that_bears_it() {
 fn wrong_names_and_wrong_numbers_of_shapes_are_refused() {
     let count = Error::Inadmissible("there must be one value for each shape of the effect");
     for name in ["", "Viscous", "viscous ", "friction", "drag"] {
-        assert_eq!(
-            Effect::<f64>::try_from_name(name, &[]),
-            Err(Error::OutOfRange("effect name"))
-        );
+        let refused = Effect::<f64>::try_from_name(name, &[]);
+        assert_eq!(refused, Err(Error::OutOfRange("effect name")));
     }
     for name in names() {
         let effect = make::<f64>(name);
         let number = effect.info().shapes.len();
         let too_many = vec![0.5; number + 1];
         assert_eq!(Effect::try_from_name(name, &too_many), Err(count), "{name}");
-        if number > 0 {
-            assert_eq!(
-                Effect::<f64>::try_from_name(name, &[]),
-                Err(count),
-                "{name}"
-            );
-        }
+        let none = Effect::<f64>::try_from_name(name, &[]);
+        assert_eq!(none.err(), (number > 0).then_some(count), "{name}");
         let index = Error::OutOfRange("shape index");
         assert_eq!(effect.with_shape(number, 0.5), Err(index), "{name}");
         assert_eq!(effect.shape(number), None, "{name}");
     }
-}
-
-#[test]
-fn the_catalogue_names_no_effect_twice() {
-    let mut seen: Vec<_> = names().collect();
-    seen.sort_unstable();
-    seen.dedup();
-    assert_eq!(seen.len(), CATALOGUE.len());
 }
 
 /// Compact forms store an effect's place: what is added comes last, or old files would be read
@@ -74,6 +55,10 @@ fn the_catalogue_names_no_effect_twice() {
 #[test]
 fn effects_keep_the_places_that_older_files_have_stored() {
     let place = |name: &str| names().position(|other| other == name);
+    let mut seen: Vec<_> = names().collect();
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen.len(), CATALOGUE.len(), "none is there twice");
     for (name, at) in [
         ("offset", 0),
         ("crosstalk", 19),
@@ -93,9 +78,8 @@ fn effects_keep_the_places_that_older_files_have_stored() {
 #[test]
 fn what_an_effect_reads_tells_output_stages_and_hysteresis() {
     let that = |condition: fn(&Effect<f64>) -> bool| {
-        names()
-            .filter(|name| condition(&make(name)))
-            .collect::<Vec<_>>()
+        let all = names().filter(|name| condition(&make(name)));
+        all.collect::<Vec<_>>()
     };
     assert_eq!(that(Effect::is_output_stage), ["delay", "lag"]);
     assert_eq!(that(Effect::is_input_stage), ["play-in-series"]);

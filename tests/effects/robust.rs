@@ -1,11 +1,6 @@
 //! Extreme numbers, bad numbers, and both precisions.
 
-use crate::{along, make, names, plausible, situation};
-use approx::assert_relative_eq;
-use bowden::effect::{EffectState, Inputs, Motion, Quantity};
-use bowden::Real;
-use proptest::prelude::*;
-use proptest::sample::select;
+use super::*;
 
 proptest! {
     #[test]
@@ -26,57 +21,31 @@ proptest! {
         }
     }
 
+    /// Two samples of each dt: what depends on dt alone is computed anew where it changes. No time
+    /// backwards is not no time forwards: the share of a low-pass is zero for both, of either sign.
     #[test]
-    fn a_whole_record_gives_the_regressors_of_its_samples_to_the_bit(
-        path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8),
-    ) {
-        // Two samples of each dt: what depends on dt alone is computed anew where it changes.
-        let path = path.into_iter().map(situation);
-        let path: Vec<Inputs<f32>> = path.flat_map(|at| [at, at]).collect();
-        for name in names() {
-            let (effect, mut state) = (make::<f32>(name), EffectState::default());
-            let mut whole = Vec::new();
-            effect.regressors(&mut state, path.iter().copied(), |value| whole.push(value.to_bits()));
-            let each: Vec<u32> = along(&effect, &path).into_iter().map(f32::to_bits).collect();
-            prop_assert_eq!(whole, each, "{}", name);
-        }
-    }
-
-    #[test]
-    fn a_whole_record_gives_the_contributions_of_its_samples_to_the_bit(
+    fn a_whole_record_gives_the_numbers_of_its_samples_to_the_bit(
         path in prop::collection::vec(prop::array::uniform11(extreme()), 1..8),
         gain in extreme(),
+        position in select(vec![0.0, -0.0, 1.0]),
     ) {
-        let path: Vec<Inputs<f32>> = path.into_iter().map(situation).collect();
-        for name in names() {
-            let effect = make::<f32>(name);
-            let (mut state, mut whole) = (EffectState::default(), Vec::new());
-            let take = |value: f32| whole.push(value.to_bits());
-            effect.contributions(gain, &mut state, path.iter().copied(), take);
-            let mut state = EffectState::default();
-            let one = |at| effect.contribution(gain, &mut state, at).to_bits();
-            let each: Vec<u32> = path.iter().map(one).collect();
-            prop_assert_eq!(whole, each, "{}", name);
-        }
-    }
-
-    /// The share of a low-pass is zero for both, of either sign.
-    #[test]
-    fn no_time_forwards_is_not_no_time_backwards(position in select(vec![0.0, -0.0, 1.0])) {
-        let at = |dt| Inputs {
-            dt,
-            motion: Motion { position, ..Motion::default() },
-            output: position,
-            ..Inputs::default()
-        };
-        let path: [Inputs<f32>; 4] = [at(-0.0), at(-0.0), at(0.0), at(0.0)];
-        for name in ["creep", "lag"] {
-            let effect = make::<f32>(name);
-            let mut whole = Vec::new();
-            let take = |value: f32| whole.push(value.to_bits());
-            effect.regressors(&mut EffectState::default(), path.into_iter(), take);
-            let each: Vec<u32> = along(&effect, &path).into_iter().map(f32::to_bits).collect();
-            prop_assert_eq!(whole, each, "{}", name);
+        let path = path.into_iter().map(situation).flat_map(|at| [at, at]);
+        let still = [-0.0, -0.0, 0.0, 0.0].map(|dt| with(at(position, dt), |at| at.output = position));
+        for path in [path.collect::<Vec<Inputs<f32>>>(), still.to_vec()] {
+            for name in names() {
+                let (effect, mut whole) = (make::<f32>(name), Vec::new());
+                let take = |value: f32| whole.push(value.to_bits());
+                effect.regressors(&mut EffectState::default(), path.iter().copied(), take);
+                let each: Vec<u32> = along(&effect, &path).into_iter().map(f32::to_bits).collect();
+                prop_assert_eq!(whole, each, "{}", name);
+                let (mut state, mut whole) = (EffectState::default(), Vec::new());
+                let take = |value: f32| whole.push(value.to_bits());
+                effect.contributions(gain, &mut state, path.iter().copied(), take);
+                let mut state = EffectState::default();
+                let one = |at| effect.contribution(gain, &mut state, at).to_bits();
+                let each: Vec<u32> = path.iter().map(one).collect();
+                prop_assert_eq!(whole, each, "{}", name);
+            }
         }
     }
 
@@ -94,7 +63,7 @@ proptest! {
             }
             for &quantity in effect.info().reads {
                 let mut after = state;
-                let value = effect.regressor(&mut after, &with(&at, quantity, bad));
+                let value = effect.regressor(&mut after, &spoilt(&at, quantity, bad));
                 prop_assert_eq!((value, after), (0.0, state), "{} {:?}", name, quantity);
             }
         }
@@ -109,8 +78,8 @@ proptest! {
         for name in names() {
             let effect = make(name);
             let unread = all.iter().filter(|quantity| !effect.info().reads.contains(quantity));
-            let spoilt = unread.fold(at, |at, &quantity| with(&at, quantity, f64::NAN));
-            prop_assert_eq!(along(&effect, &[spoilt]), along(&effect, &[at]), "{}", name);
+            let other = unread.fold(at, |at, &quantity| spoilt(&at, quantity, f64::NAN));
+            prop_assert_eq!(along(&effect, &[other]), along(&effect, &[at]), "{}", name);
         }
     }
 
@@ -130,16 +99,8 @@ proptest! {
 /// Any finite f32, the extreme ones more often.
 fn extreme() -> impl Strategy<Value = f32> {
     use proptest::num::f32::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
-    let corners = vec![
-        f32::MAX,
-        f32::MIN,
-        f32::MIN_POSITIVE,
-        f32::from_bits(1),
-        0.0,
-        -0.0,
-        1e-3,
-        -1.0,
-    ];
+    let (tiny, least) = (f32::MIN_POSITIVE, f32::from_bits(1));
+    let corners = vec![f32::MAX, f32::MIN, tiny, least, 0.0, -0.0, 1e-3, -1.0];
     prop_oneof![
         POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
         select(corners)
@@ -147,36 +108,9 @@ fn extreme() -> impl Strategy<Value = f32> {
 }
 
 fn convert<A: Real, B: Real>(at: &Inputs<A>) -> Inputs<B> {
-    let to = |value: A| B::from_f64(value.as_f64());
-    let motion = |motion: Motion<A>| Motion {
-        position: to(motion.position),
-        velocity: to(motion.velocity),
-        acceleration: to(motion.acceleration),
-    };
-    Inputs {
-        dt: to(at.dt),
-        time: to(at.time),
-        motion: motion(at.motion),
-        input: motion(at.input),
-        load: to(at.load),
-        eta: to(at.eta),
-        output: to(at.output),
-    }
-}
-
-fn with(at: &Inputs<f64>, quantity: Quantity, value: f64) -> Inputs<f64> {
-    let mut at = *at;
-    *match quantity {
-        Quantity::Dt => &mut at.dt,
-        Quantity::Time => &mut at.time,
-        Quantity::Position => &mut at.motion.position,
-        Quantity::Velocity => &mut at.motion.velocity,
-        Quantity::Acceleration => &mut at.motion.acceleration,
-        Quantity::Input => &mut at.input.position,
-        Quantity::Load => &mut at.load,
-        Quantity::Eta => &mut at.eta,
-        Quantity::Output => &mut at.output,
-        other => panic!("{other:?} is new"),
-    } = value;
-    at
+    let (m, i) = (at.motion, at.input);
+    let (x, v, a) = (m.position, m.velocity, m.acceleration);
+    let (y, w, b) = (i.position, i.velocity, i.acceleration);
+    let all = [at.dt, at.time, x, v, a, y, w, b, at.load, at.eta, at.output];
+    situation(all.map(|value| B::from_f64(value.as_f64())))
 }

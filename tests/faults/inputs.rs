@@ -1,13 +1,13 @@
 //! Numbers that are finite and wrong, and configurations in flash.
 
-use super::{law, limits};
-use bowden::constant;
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Estimator, Fallback, Form, Limits,
-    Pid, PidInput, PidSettings, PidState, SmoothSign, Status,
-};
+use super::*;
 use bowden::signal::{Implausible, Plausible, PlausibleState, Ramp, RampState};
-use bowden::Constant;
+use bowden::{constant, Constant};
+
+fn plausible() -> Plausible<f64> {
+    let range = Plausible::try_new(-10.0, 10.0).unwrap();
+    range.with_rate(100.0).unwrap()
+}
 
 #[test]
 fn a_reset_encoder_does_not_move_the_estimates() {
@@ -16,7 +16,7 @@ fn a_reset_encoder_does_not_move_the_estimates() {
         500 => 6e5,
         _ => (0.01 * f64::from(k)).sin(),
     };
-    let law = Adaptive::try_new(law(false, 1e12)).unwrap();
+    let [law, _] = forms(|s| s.limits = limits(1e12));
     let checked = Plausible::try_new(-500.0, 500.0).unwrap();
     let run = |with: bool| {
         let (mut state, mut seen) = (AdaptiveState::new(&law), PlausibleState::new());
@@ -31,50 +31,42 @@ fn a_reset_encoder_does_not_move_the_estimates() {
         (state.theta_hat()[0], most)
     };
     let ((theta, most), (thrown, thrown_most)) = (run(true), run(false));
-    assert!(
-        thrown_most > 1e5 && (thrown - theta).abs() > 1.0,
-        "{thrown} {thrown_most}"
-    );
+    assert!(thrown_most > 1e5, "{thrown_most}");
+    assert!((thrown - theta).abs() > 1.0, "{thrown} {theta}");
     assert!(most < 200.0 && (theta - 1.0).abs() < 0.1, "{theta} {most}");
 }
 
 #[test]
 fn a_sample_is_plausible_within_its_range_and_its_rate() {
-    let plausible = Plausible::try_new(-10.0, 10.0)
-        .unwrap()
-        .with_rate(100.0)
-        .unwrap();
-    let mut state = PlausibleState::new();
+    let (plausible, mut state) = (plausible(), PlausibleState::new());
     let mut fault = |sample: f64, dt: f64| plausible.step(&mut state, sample, dt, true).fault;
-    assert_eq!(
-        fault(9.0, 0.001),
-        None,
-        "the first may be anywhere in the range"
-    );
-    assert_eq!(fault(11.0, 0.001), Some(Implausible::OutOfRange));
-    assert_eq!(fault(f64::NAN, 0.001), Some(Implausible::NotFinite));
-    assert_eq!(fault(f64::INFINITY, 0.001), Some(Implausible::NotFinite));
-    assert_eq!(
-        fault(8.0, 0.001),
-        Some(Implausible::TooFast),
-        "0.4 in four samples"
-    );
-    // A signal that has really moved is taken up again: 1 in 10 ms.
-    let waits = (0..20).take_while(|_| fault(8.0, 0.001).is_some()).count();
-    assert_eq!(waits, 5);
-    assert_eq!(fault(8.1, 0.001), None);
+    let not = Some(Implausible::NotFinite);
+    for (sample, dt, expected) in [
+        (9.0, DT, None), // the first may be anywhere in the range
+        (11.0, DT, Some(Implausible::OutOfRange)),
+        (f64::NAN, DT, not),
+        (f64::INFINITY, DT, not),
+        (8.0, DT, Some(Implausible::TooFast)), // 0.4 in four samples
+    ] {
+        assert_eq!(fault(sample, dt), expected);
+    }
     // After a gap of unknown length it may be anywhere in the range.
-    assert_eq!(fault(f64::NAN, f64::NAN), Some(Implausible::NotFinite));
-    assert_eq!(fault(-9.0, 0.001), None);
+    assert_eq!(fault(f64::NAN, f64::NAN), not);
+    assert_eq!(fault(-9.0, DT), None);
 }
 
 #[test]
 fn a_dt_of_zero_is_no_time_and_one_that_cannot_be_used_an_unknown_or_the_longest() {
-    let plausible = Plausible::try_new(-10.0, 10.0)
-        .and_then(|p| p.with_rate(100.0))
-        .unwrap();
+    let plausible = plausible();
     let bounded = plausible.with_longest_dt(0.005).unwrap();
-    for dt in [-0.001, -4295.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    for dt in [
+        4295.0,
+        -0.001,
+        -4295.0,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+    ] {
         let (mut of_any, mut of_longest) = (PlausibleState::new(), PlausibleState::new());
         for (own, state) in [(&plausible, &mut of_any), (&bounded, &mut of_longest)] {
             own.step(state, 1.0, 0.001, true);
@@ -112,34 +104,9 @@ fn a_frozen_sensor_is_told_while_the_machine_moves_only() {
         assert_eq!(fault(3.0, true), None);
     }
     assert_eq!(fault(3.0, true), Some(Implausible::Stuck));
-    assert_eq!(
-        fault(3.0, false),
-        Some(Implausible::Stuck),
-        "it has not moved since"
-    );
+    // It has not moved since.
+    assert_eq!(fault(3.0, false), Some(Implausible::Stuck));
     assert_eq!(fault(3.1, true), None);
-}
-
-#[test]
-fn a_reference_ramp_keeps_its_rate_and_never_passes_what_was_wanted() {
-    let ramp = Ramp::try_new(50.0, 0.02).unwrap();
-    let mut state = RampState::at(0.0);
-    let mut last = 0.0_f64;
-    for _ in 0..2000 {
-        let value = ramp.step(&mut state, 25.0, 0.001);
-        assert!((value - last) <= 0.05 + 1e-12 && value <= 25.0); // 50/s for 1 ms
-        last = value;
-    }
-    assert!((last - 25.0).abs() < 1e-6);
-    for (wanted, dt) in [
-        (f64::NAN, 0.001),
-        (30.0, f64::NAN),
-        (30.0, 0.0),
-        (30.0, -1.0),
-    ] {
-        assert_eq!(ramp.step(&mut state, wanted, dt), last);
-    }
-    assert!(Ramp::try_new(0.0, 0.0).is_err() && Ramp::try_new(1.0, -1.0).is_err());
 }
 
 /// Range, longest dt \[s\] and safe command of a drive, in flash.
@@ -184,39 +151,24 @@ fn a_configuration_in_flash_is_the_one_that_is_checked_at_run_time() {
     assert_eq!(Ok(PI_64), Pid::try_new(*PI_64.settings()));
     assert_eq!(Ok(LAW), Adaptive::try_new(*LAW.settings()));
     assert_eq!(Ok(LAW_64), Adaptive::try_new(*LAW_64.settings()));
-    assert_eq!(
-        Ok(SENSOR),
-        Plausible::try_new(-200.0, 200.0).and_then(|s| s.with_rate(1e5))
-    );
-    let mut state = PidState::new();
-    let out = PI.step(&mut state, &PidInput::new(0.001, 1.0, 0.9));
+    let sensor = Plausible::try_new(-200.0, 200.0).and_then(|s| s.with_rate(1e5));
+    assert_eq!(Ok(SENSOR), sensor);
+    let out = PI.step(&mut PidState::new(), &PidInput::new(0.001, 1.0, 0.9));
     assert_eq!(out.status, Status::Good);
-    assert_eq!(limits(1.0).low(), -1.0);
 }
 
 #[test]
 fn a_constant_is_refused_with_the_words_of_the_run_time() {
-    let nan = f32::NAN;
-    assert_eq!(
-        Constant::<Limits<f32>>::try_new(1.0, 0.0),
-        Limits::try_new(1.0_f32, 0.0)
-    );
-    assert_eq!(
-        Constant::<Limits<f32>>::try_new(nan, 0.0),
-        Limits::try_new(nan, 0.0)
-    );
-    assert_eq!(
-        Constant::<Limits<f32>>::with_slew(RANGE, 0.0),
-        RANGE.with_slew(0.0)
-    );
-    assert_eq!(
-        Constant::<Fallback<f32>>::try_new(0, 0.0),
-        Fallback::try_new(0, 0.0_f32)
-    );
-    assert_eq!(
-        Constant::<Fallback<f32>>::try_new(1, nan),
-        Fallback::try_new(1, nan)
-    );
+    for (low, high) in [(1.0, 0.0), (f32::NAN, 0.0)] {
+        let refused = Constant::<Limits<f32>>::try_new(low, high);
+        assert_eq!(refused, Limits::try_new(low, high));
+    }
+    let refused = Constant::<Limits<f32>>::with_slew(RANGE, 0.0);
+    assert_eq!(refused, RANGE.with_slew(0.0));
+    for (after, command) in [(0, 0.0), (1, f32::NAN)] {
+        let refused = Constant::<Fallback<f32>>::try_new(after, command);
+        assert_eq!(refused, Fallback::try_new(after, command));
+    }
     let change: [fn(&mut PidSettings<f32>); 6] = [
         |s| s.k_p = f32::NAN,
         |s| s.k_i = -1.0,
@@ -226,8 +178,7 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
         |s| s.longest_dt = 0.0,
     ];
     for change in change {
-        let mut settings = PidSettings::unlimited(30.0, 18.0);
-        change(&mut settings);
+        let settings = with(PidSettings::unlimited(30.0, 18.0), change);
         let refused = Constant::<Pid<f32>>::try_new(settings);
         assert!(refused.is_err());
         assert_eq!(refused, Pid::try_new(settings));
@@ -241,8 +192,7 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
         |s| s.longest_dt = f32::NAN,
     ];
     for change in change {
-        let mut settings = *LAW.settings();
-        change(&mut settings);
+        let settings = with(*LAW.settings(), change);
         let refused = Constant::<Adaptive<f32, 2>>::try_new(settings);
         assert!(refused.is_err());
         assert_eq!(refused, Adaptive::try_new(settings));
@@ -251,11 +201,10 @@ fn a_constant_is_refused_with_the_words_of_the_run_time() {
 
 /// The controller refuses a counter's wrap; the reference before it must not have moved on.
 #[test]
-fn a_wrapped_counter_moves_neither_the_ramp_nor_what_is_plausible() {
+fn a_wrapped_counter_does_not_move_a_ramp_with_a_longest_dt() {
     let ramp = Ramp::try_new(50.0, 0.02).unwrap();
-    let mut state = RampState::at(0.0);
     // Without a longest dt the ramp arrives.
-    assert!(ramp.step(&mut state, 25.0, 4295.0) > 24.9);
+    assert!(ramp.step(&mut RampState::at(0.0), 25.0, 4295.0) > 24.9);
     let ramp = ramp.with_longest_dt(0.005).unwrap();
     let mut state = RampState::at(0.0);
     ramp.step(&mut state, 25.0, 0.001);
@@ -263,17 +212,5 @@ fn a_wrapped_counter_moves_neither_the_ramp_nor_what_is_plausible() {
     ramp.step(&mut state, 25.0, 4295.0);
     assert_eq!(state, before);
     assert!(ramp.with_longest_dt(0.0).is_err() && ramp.with_longest_dt(f64::NAN).is_err());
-
-    let plausible = Plausible::try_new(-100.0, 100.0)
-        .and_then(|p| p.with_rate(50.0))
-        .and_then(|p| p.with_longest_dt(0.005))
-        .unwrap();
-    let mut state = PlausibleState::new();
-    for k in 0..50 {
-        let sample = 0.5 + 1e-3 * f64::from(k);
-        assert_eq!(plausible.step(&mut state, sample, 0.001, true).fault, None);
-    }
-    let spike = plausible.step(&mut state, 95.0, 4295.0, true);
-    assert_eq!(spike.fault, Some(Implausible::TooFast));
-    assert_eq!(plausible.step(&mut state, 0.55, 0.001, true).fault, None);
+    assert!(Ramp::try_new(0.0, 0.0).is_err() && Ramp::try_new(1.0, -1.0).is_err());
 }

@@ -3,18 +3,19 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
-mod adaptive;
 #[cfg(feature = "serde")]
 mod flash;
 mod inputs;
 mod latch;
-mod pid;
+mod laws;
 mod score;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod stored;
 
-use bowden::control::{
-    AdaptiveSettings, Estimator, Fallback, Form, Limits, LoopSample, PidSettings,
-};
+use bowden::control::*;
+use proptest::prelude::*;
+use shared::*;
 
 /// Nominal step \[s\], and the longest: five of them.
 const DT: f64 = 1e-3;
@@ -38,10 +39,7 @@ fn good() -> LoopSample<'static, f64> {
 }
 
 fn bad() -> LoopSample<'static, f64> {
-    LoopSample {
-        measured: f64::NAN,
-        ..good()
-    }
+    with(good(), |at| at.measured = f64::NAN)
 }
 
 /// A PI with limits of ±60.
@@ -49,26 +47,27 @@ fn pi() -> PidSettings<f64> {
     PidSettings::new(3.0, 30.0, limits(60.0), LONGEST, fallback())
 }
 
-/// A law over one regressor within `most`, in the literal or in the lag form.
-fn law(lag: bool, most: f64) -> AdaptiveSettings<f64, 1> {
-    let form = if lag {
-        Form::FirstOrder {
-            step: DT,
-            plant_gain: 1.0,
-        }
-    } else {
-        Form::AsPublished {
-            time_constant: 0.005,
-        }
+fn pid(change: impl FnOnce(&mut PidSettings<f64>)) -> Pid<f64> {
+    Pid::try_new(with(pi(), change)).unwrap()
+}
+
+/// A law over one regressor, in the literal or in the lag form.
+fn law(lag: bool) -> AdaptiveSettings<f64, 1> {
+    let (step, plant_gain, time_constant) = (DT, 1.0, 0.005);
+    let form = match lag {
+        true => Form::FirstOrder { step, plant_gain },
+        false => Form::AsPublished { time_constant },
     };
+    let own = |x, low, high, gain| Estimator::fixed(x).within(low, high).adapting(gain, 0.01);
     AdaptiveSettings {
-        beta: Estimator::fixed(1.0)
-            .within(0.9, 1.1)
-            .adapting(2.5e-4, 0.01),
-        delta: Estimator::fixed(1.0)
-            .within(0.0, 7.0)
-            .adapting(6.25e-3, 0.01),
-        theta: [Estimator::fixed(1.0).within(-5.0, 5.0).adapting(5e-4, 0.01)],
-        ..AdaptiveSettings::new(form, 24.0, 8.0, 0.2, limits(most), LONGEST, fallback())
+        beta: own(1.0, 0.9, 1.1, 2.5e-4),
+        delta: own(1.0, 0.0, 7.0, 6.25e-3),
+        theta: [own(1.0, -5.0, 5.0, 5e-4)],
+        ..AdaptiveSettings::new(form, 24.0, 8.0, 0.2, limits(60.0), LONGEST, fallback())
     }
+}
+
+/// Both forms with a change.
+fn forms(change: impl Fn(&mut AdaptiveSettings<f64, 1>)) -> [Adaptive<f64, 1>; 2] {
+    [false, true].map(|lag| Adaptive::try_new(with(law(lag), &change)).unwrap())
 }

@@ -1,11 +1,6 @@
 //! The score of bad samples, against one that is counted openly.
 
-use super::{law, pi};
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveState, Fallback, Fault, Pid, PidInput, PidSettings, PidState,
-    Status,
-};
-use proptest::prelude::*;
+use super::*;
 
 /// What happens between two looks at the score.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,14 +20,6 @@ fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
-fn measured(event: Event) -> f64 {
-    match event {
-        Event::Nan => f64::NAN,
-        Event::Overflow => f64::MAX,
-        _ => 24.5,
-    }
-}
-
 /// The score as the docs of `Fallback` have it, without a thought for speed.
 struct Open {
     fallback: Fallback<f64>,
@@ -42,19 +29,16 @@ struct Open {
 
 impl Open {
     fn new(fallback: Fallback<f64>) -> Self {
-        let (score, latched) = (0, false);
         Self {
             fallback,
-            score,
-            latched,
+            score: 0,
+            latched: false,
         }
     }
 
     fn take(&mut self, event: Event) {
         match event {
-            Event::Acknowledged if self.latched => {
-                (self.score, self.latched) = (0, false);
-            }
+            Event::Acknowledged if self.latched => (self.score, self.latched) = (0, false),
             _ if self.latched => {}
             Event::Acknowledged => {}
             Event::Good => self.score = self.score.saturating_sub(1),
@@ -77,66 +61,59 @@ fn any_fallback() -> impl Strategy<Value = Fallback<f64>> {
 /// Who resets whenever a sample is bad, against wind-up, must not reset the way to safety.
 #[test]
 fn a_reset_at_every_bad_sample_does_not_keep_the_safe_command_back() {
-    let pid = Pid::try_new(pi()).unwrap();
-    let mut state = PidState::new();
+    let (pid, mut state) = (pid(|_| ()), PidState::new());
     pid.step(&mut state, &PidInput::new(1e-3, 25.0, 24.0));
-    let after = pid.settings().fallback.after();
-    for k in 1..=after {
+    for k in 1..=20 {
         let out = pid.step(&mut state, &PidInput::new(1e-3, 25.0, f64::NAN));
-        assert_eq!(
-            out.status == Status::Safe(Fault::Measured),
-            k == after,
-            "{k}"
-        );
+        assert_eq!(out.status == Status::Safe(Fault::Measured), k == 20, "{k}");
         state.reset();
         assert_eq!(state.fault_counter(), 4 * k);
     }
     assert!(state.is_latched());
-    assert_eq!(Some(state.command()), pid.settings().fallback.command());
+    assert_eq!(state.command(), 0.0);
+}
+
+fn is_what_an_open_count_says<C: Controller<f64>>(
+    law: &C,
+    fallback: Fallback<f64>,
+    events: &[Event],
+    counter: fn(&C::State) -> u32,
+) -> Result<(), TestCaseError> {
+    let (mut state, mut open) = (law.start(), Open::new(fallback));
+    for &event in events {
+        // A reference of -MAX beside a measurement of MAX: every number is one, their difference is
+        // none.
+        let (reference, measured) = match event {
+            Event::Nan => (25.0, f64::NAN),
+            Event::Overflow => (-f64::MAX, f64::MAX),
+            _ => (25.0, 24.5),
+        };
+        if event == Event::Acknowledged {
+            law.acknowledge(&mut state);
+        } else {
+            let at = with(good(), |at| {
+                (at.reference, at.measured) = (reference, measured)
+            });
+            let is_good = law.step(&mut state, &at).status == Status::Good;
+            prop_assert_eq!(is_good, event == Event::Good && !open.latched);
+        }
+        open.take(event);
+        let told = (counter(&state), law.is_latched(&state));
+        prop_assert_eq!(told, (open.score, open.latched));
+    }
+    Ok(())
 }
 
 proptest! {
     #[test]
-    fn of_a_pi_is_what_an_open_count_says(
+    fn of_a_law_is_what_an_open_count_says(
         events in prop::collection::vec(event(), 1..200),
         fallback in any_fallback(),
     ) {
-        // A reference of -MAX beside a measurement of MAX: every number is one, their
-        // difference is none.
-        let pid = Pid::try_new(PidSettings { fallback, ..pi() }).unwrap();
-        let (mut state, mut open) = (PidState::new(), Open::new(fallback));
-        for event in events {
-            if event == Event::Acknowledged {
-                state.acknowledge();
-            } else {
-                let reference = if event == Event::Overflow { -f64::MAX } else { 25.0 };
-                let out = pid.step(&mut state, &PidInput::new(1e-3, reference, measured(event)));
-                prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
-            }
-            open.take(event);
-            prop_assert_eq!((state.fault_counter(), state.is_latched()), (open.score, open.latched));
-        }
-    }
-
-    #[test]
-    fn of_the_adaptive_law_is_what_an_open_count_says(
-        events in prop::collection::vec(event(), 1..200),
-        fallback in any_fallback(),
-        lag in any::<bool>(),
-    ) {
-        let settings = bowden::control::AdaptiveSettings { fallback, ..law(lag, 60.0) };
-        let law = Adaptive::try_new(settings).unwrap();
-        let (mut state, mut open) = (AdaptiveState::new(&law), Open::new(fallback));
-        for event in events {
-            if event == Event::Acknowledged {
-                state.acknowledge();
-            } else {
-                let input = AdaptiveInput::new(1e-3, 25.0, measured(event), [0.2]);
-                let out = law.step(&mut state, &input);
-                prop_assert_eq!(out.status == Status::Good, event == Event::Good && !open.latched);
-            }
-            open.take(event);
-            prop_assert_eq!((state.fault_counter(), state.is_latched()), (open.score, open.latched));
+        let pid = pid(|s| s.fallback = fallback);
+        is_what_an_open_count_says(&pid, fallback, &events, |own| own.fault_counter())?;
+        for law in forms(|s| s.fallback = fallback) {
+            is_what_an_open_count_says(&law, fallback, &events, |own| own.fault_counter())?;
         }
     }
 }

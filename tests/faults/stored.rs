@@ -1,7 +1,6 @@
 //! What comes back from flash: states after the power was off, and settings of which a line was lost.
 
-use super::{bad, good, law, pi};
-use bowden::control::{Adaptive, Controller, Fallback, Fault, Limits, Pid, PidSettings, Status};
+use super::*;
 
 /// Runs until a command is out, cuts the power, and starts again; the first command is that which
 /// goes on from `start`, as far as one step of the law reaches (`way`).
@@ -61,32 +60,25 @@ where
 #[test]
 fn after_the_power_was_off_a_law_starts_from_nothing_with_what_it_has_learned() {
     let exactly = 1e-9;
-    starts_again(&Pid::try_new(pi()).unwrap(), 0.0, exactly);
+    starts_again(&pid(|_| ()), 0.0, exactly);
     // The command nearest to zero where zero is none; the safe one is 0 within the other limits.
-    let asymmetric = PidSettings {
-        limits: Limits::try_new(2.0, 60.0).unwrap(),
-        fallback: Fallback::try_new(20, 2.5).unwrap(),
-        ..pi()
-    };
-    let pid = Pid::try_new(asymmetric).unwrap();
-    let mut state = pid.start();
+    let asymmetric = pid(|s| {
+        s.limits = Limits::try_new(2.0, 60.0).unwrap();
+        s.fallback = Fallback::try_new(20, 2.5).unwrap();
+    });
+    let mut state = asymmetric.start();
     for _ in 0..500 {
-        Controller::step(&pid, &mut state, &good());
+        Controller::step(&asymmetric, &mut state, &good());
     }
-    state.restore(&pid);
+    state.restore(&asymmetric);
     assert_eq!(state.command(), 2.0);
 
-    for lag in [false, true] {
-        let own = Adaptive::try_new(law(lag, 60.0)).unwrap();
-        // The lag moves by a share h·lambda = 0.008 of the way to a command within 100.
-        let state = starts_again(&own, 0.0, if lag { 0.8 } else { exactly });
+    // The lag moves by a share h·lambda = 0.008 of the way to a command within 100.
+    for (own, way) in forms(|_| ()).into_iter().zip([exactly, 0.8]) {
+        let state = starts_again(&own, 0.0, way);
         let fresh = own.start();
         // One step after it the estimates are still those of 500 steps.
-        assert!(
-            (state.beta_hat() - fresh.beta_hat()).abs() > 1e-3,
-            "{}",
-            state.beta_hat()
-        );
+        assert!((state.beta_hat() - fresh.beta_hat()).abs() > 1e-3);
         assert!((state.delta_hat() - fresh.delta_hat()).abs() > 1e-3);
         assert!((state.theta_hat()[0] - fresh.theta_hat()[0]).abs() > 1e-5);
     }
@@ -103,21 +95,15 @@ fn a_lost_table_takes_no_limit_no_safe_command_and_no_longest_dt_away() {
             let mut table = whole.clone();
             assert!(table.remove(lost).is_some(), "{lost}");
             let error = read(&table).err().unwrap().to_string();
-            assert!(
-                error.contains(&format!("missing field `{lost}`")),
-                "{error}"
-            );
+            let expected = format!("missing field `{lost}`");
+            assert!(error.contains(&expected), "{error}");
         }
     }
     refused::<_, Pid<f64>>(&pi());
-    refused::<_, Pid<f32>>(&PidSettings::new(
-        3.0_f32,
-        30.0,
-        Limits::try_new(-60.0, 60.0).unwrap(),
-        0.005,
-        Fallback::try_new(20, 0.0).unwrap(),
-    ));
-    refused::<_, Adaptive<f64, 1>>(&law(true, 60.0));
+    let (range, safe) = (Limits::try_new(-60.0, 60.0), Fallback::try_new(20, 0.0));
+    let single = PidSettings::new(3.0_f32, 30.0, range.unwrap(), 0.005, safe.unwrap());
+    refused::<_, Pid<f32>>(&single);
+    refused::<_, Adaptive<f64, 1>>(&law(true));
     // What is without them says so, and comes back as it was.
     let unlimited = PidSettings::unlimited(3.0, 30.0);
     refused::<_, Pid<f64>>(&unlimited);

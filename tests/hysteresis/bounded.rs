@@ -1,9 +1,6 @@
 //! The step in bounded time, which `f32` takes: how far it is off, where and by how much.
 
-use super::{shape, sine, single, Uniform, SETS};
-use bowden::hysteresis::BoucWen;
-use bowden::Real;
-use proptest::prelude::*;
+use super::*;
 
 /// What the motor of a rig's plant may have, and what the paper identified.
 const SIGMAS: [f64; 4] = [0.5, 0.743, 3.0, 98.36];
@@ -11,10 +8,10 @@ const SIGMAS: [f64; 4] = [0.5, 0.743, 3.0, 98.36];
 /// Largest error of one step over 1000 jumps within `±size` \[N·m\], rho = 0.09582.
 fn worst_jump(n: f64, sigma: f64, size: f64) -> f64 {
     let shape = shape(0.095_82, sigma, n);
-    let mut uniform = Uniform(7);
+    let mut random = Random(7);
     let (mut eta, mut last, mut most) = (0.0, 0.0, 0.0_f64);
     for _ in 0..1000 {
-        let now = size * (2.0 * uniform.next() - 1.0);
+        let now = size * (2.0 * random.next() - 1.0);
         let short = shape.advance_bounded(eta, now - last);
         // Thirty increments of third order: an error of 1e-3/30³, far below what is measured here.
         eta = (0..30).fold(eta, |eta, _| shape.advance_split(eta, (now - last) / 30.0));
@@ -51,28 +48,19 @@ fn a_jump_is_off_by_no_more_than_the_docs_say() {
 
 #[test]
 fn single_precision_steps_differ_from_double_ones_by_a_few_roundings() {
-    let mut uniform = Uniform(23);
+    let mut random = Random(23);
     for n in [1.0, 1.02, 1.5, 2.0, 3.871, 10.0] {
         for sigma in SIGMAS {
-            let (double, single) = (shape(0.1, sigma, n), single(0.1, sigma, n));
-            // The parameters as single precision has them.
-            let double = BoucWen::try_new(
-                f64::from(single.rho()),
-                f64::from(single.sigma()),
-                f64::from(single.n()),
-            )
-            .unwrap_or(double);
+            let single = single(0.1, sigma, n);
+            let double = widened(&single);
             for _ in 0..4000 {
-                let eta = (2.0 * uniform.next() - 1.0) as f32;
-                let change = (0.2 * uniform.next() - 0.1) as f32;
+                let eta = (2.0 * random.next() - 1.0) as f32;
+                let change = (0.2 * random.next() - 0.1) as f32;
                 let long = double.advance_bounded(f64::from(eta), f64::from(change));
                 let short = single.advance(eta, change);
                 // Six roundings of 6e-8 beside 1; c is large, and with it the slope.
                 let bound = 4e-7 * (1.0 + sigma / 10.0);
-                assert!(
-                    (f64::from(short) - long).abs() < bound,
-                    "{short} {long}, n {n}, sigma {sigma}, from {eta} by {change}"
-                );
+                near(f64::from(short), long, bound);
             }
         }
     }
@@ -88,7 +76,7 @@ fn at_n_one_and_two_it_follows_the_closed_forms() {
             a = exact.advance(a, f64::from(now) - f64::from(last));
             b = short.advance(b, now - last);
             // Measured 1.1e-6 and 3.4e-6: rounding for n = 1, the step's third order for 2.
-            assert!((f64::from(b) - a).abs() < bound, "n {n}: {b} {a}");
+            near(f64::from(b), a, bound);
             last = now;
         }
     }
@@ -106,7 +94,7 @@ fn standing_still_changes_nothing_to_the_bit() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(seeded(512, 1))]
 
     #[test]
     fn any_change_leaves_single_precision_within_one_and_not_behind(
@@ -151,28 +139,18 @@ fn slopes<T: Real>(n: f64, sigma: f64, part: f64) -> [f64; 2] {
 #[test]
 fn the_slope_of_the_step_stays_below_two_sigma() {
     for sigma in [0.5, 0.55, 0.6, 0.743, 1.2, 3.0, 98.36] {
-        for (n, most) in [
-            (1.0, 1.0),
-            (1.3, 1.0),
-            (2.0, 1.0),
-            (3.871, 1.0),
-            (4.0, 1.0),
-            (10.0, 1.0),
-            (32.0, 1.22),
-            (1000.0, 1.39),
-        ] {
+        let kept = [1.0, 1.3, 2.0, 3.871, 4.0, 10.0].map(|n| (n, 1.0));
+        for (n, most) in kept.into_iter().chain([(32.0, 1.22), (1000.0, 1.39)]) {
             for part in [0.02, 0.02 / sigma] {
                 // Of rounding alone: some units in the last place of eta over a part.
-                let [least, greatest] = slopes::<f64>(n, sigma, part);
-                assert!(
-                    least > -1e-11 && greatest < most + 1e-11,
-                    "f64, n {n}, sigma {sigma}: {least}, {greatest}"
-                );
-                let [least, greatest] = slopes::<f32>(n, sigma, part);
-                assert!(
-                    least > -1e-4 && greatest < most + 1e-4,
-                    "f32, n {n}, sigma {sigma}: {least}, {greatest}"
-                );
+                for (slopes, rounding) in [
+                    (slopes::<f64>(n, sigma, part), 1e-11),
+                    (slopes::<f32>(n, sigma, part), 1e-4),
+                ] {
+                    let [least, greatest] = slopes;
+                    let is_kept = least > -rounding && greatest < most + rounding;
+                    assert!(is_kept, "n {n}, sigma {sigma}: {slopes:?}");
+                }
             }
         }
     }

@@ -1,8 +1,7 @@
 //! The state equation as it is printed, and along the path.
 
+use super::*;
 use bowden::hysteresis::law::{eta_rate, f};
-use bowden::hysteresis::BoucWen;
-use proptest::prelude::*;
 
 proptest! {
     /// `eta' = d·rho·|x'|·f(d·eta)`: the path does not contain time.
@@ -18,8 +17,12 @@ proptest! {
         // Terms up to 2·sigma·rho·|x'| = 2e4 cancel, at a rounding of 1e-16 and the power's.
         prop_assert!((printed - d * rho * f64::abs(x_rate) * along).abs() < 1e-10);
         prop_assert!((0.0..=2.0 * sigma).contains(&along));
-        let slope = BoucWen::try_new(rho, sigma, n).unwrap().slope(eta, d);
+        let shape = shape(rho, sigma, n);
+        let slope = shape.slope(eta, d);
         prop_assert!((slope - rho * along).abs() < 1e-12 * sigma);
+        // Both are sums of terms as large as the steepest slope.
+        let expected = d * right_side(&shape, eta, d);
+        prop_assert!((slope - expected).abs() < 1e-13 * rho * 2.0 * sigma);
     }
 
     /// A small step is the equation, in both floats and for each method.

@@ -1,9 +1,7 @@
 //! On a sampled motion the step in bounded time differs from the one that splits by no more than
 //! the README says, and grows with the square of the input's change between two samples.
 
-use super::{single, Uniform};
-use bowden::hysteresis::BoucWen;
-use std::f64::consts::TAU;
+use super::*;
 use std::{fs, path::Path};
 
 const NS: [f64; 6] = [1.0, 1.02, 1.5, 2.0, 3.871, 10.0];
@@ -21,17 +19,14 @@ fn motion(kind: usize, t: f64, noise: f64) -> f64 {
 /// Four periods of a motion, whose largest change between two samples is `path` over rho.
 fn sampled(kind: usize, amplitude: f64, path: f64) -> Vec<f64> {
     let of = |step: f64| -> Vec<f64> {
-        let mut uniform = Uniform(5);
+        let mut random = Random(5);
         let count = (4.0 * TAU / step) as usize;
-        (0..count)
-            .map(|k| motion(kind, k as f64 * step, 2.0 * uniform.next() - 1.0))
-            .map(|x| amplitude * x)
-            .collect()
+        let mut at = |k| motion(kind, k as f64 * step, random.within(-1.0, 1.0));
+        (0..count).map(|k| amplitude * at(k)).collect()
     };
     let largest = |all: &[f64]| {
-        all.windows(2)
-            .map(|w| (w[1] - w[0]).abs())
-            .fold(0.0, f64::max)
+        let changes = all.windows(2).map(|w| (w[1] - w[0]).abs());
+        changes.fold(0.0, f64::max)
     };
     // The change grows with the step but for the noise, which no step makes smaller.
     let mut step = path / amplitude;
@@ -49,9 +44,7 @@ fn sampled(kind: usize, amplitude: f64, path: f64) -> Vec<f64> {
 /// rho = 1. With it the largest `rho·|du|` that there was.
 fn difference(n: f64, sigma: f64, path: f64) -> Vec<[f64; 2]> {
     let short = single(1.0, sigma, n);
-    // The parameters as single precision has them.
-    let [rho, sigma, n] = [short.rho(), short.sigma(), short.n()].map(f64::from);
-    let long = BoucWen::try_new(rho, sigma, n).unwrap();
+    let long = widened(&short);
     let mut all = Vec::new();
     for kind in 0..4 {
         for amplitude in [0.3, 1.0, 4.0] {
@@ -79,13 +72,10 @@ const PATHS: [f64; 4] = [0.003, 0.01, 0.03, 0.3];
 
 /// The largest difference over what is stated, for any n and path.
 fn largest_share(sigma: f64) -> f64 {
-    let all = NS.into_iter().flat_map(|n| {
-        PATHS
-            .into_iter()
-            .flat_map(move |path| difference(n, sigma, path))
-    });
-    all.map(|[most, du]| most / stated(sigma, du))
-        .fold(0.0, f64::max)
+    let pairs = NS.into_iter().flat_map(|n| PATHS.map(|path| (n, path)));
+    let all = pairs.flat_map(|(n, path)| difference(n, sigma, path));
+    let shares = all.map(|[most, du]| most / stated(sigma, du));
+    shares.fold(0.0, f64::max)
 }
 
 #[test]

@@ -1,15 +1,6 @@
 //! What conditions a signal arrives where that is, in a computed time, after bad samples too.
 
-// Clippy's allowance covers the test functions, not what they share.
-
-use bowden::signal::{Play, PlayState, Ramp, RampState, RateStatus, Rates, RatesState};
-use bowden::Real;
-use proptest::prelude::*;
-
-/// A number between two, spread evenly over its logarithm.
-fn over_decades(from: f64, to: f64) -> impl Strategy<Value = f64> {
-    (from.ln()..to.ln()).prop_map(f64::exp)
-}
+use super::*;
 
 /// Numbers of every size, near powers of two and on them.
 fn target() -> impl Strategy<Value = f64> {
@@ -29,13 +20,12 @@ fn arrives<T: Real>(
     bad: bool,
 ) -> Result<(), TestCaseError> {
     let (from, wanted, dt) = (T::from_f64(from), T::from_f64(wanted), T::from_f64(dt));
-    let way = (wanted - from).abs().to_f64().unwrap();
+    let way = (wanted - from).abs().as_f64();
     prop_assume!(way > 0.0);
-    let rate = T::from_f64(way / (samples * dt.to_f64().unwrap()));
-    let tau = T::from_f64(lags * dt.to_f64().unwrap());
-    let ramp = Ramp::try_new(rate, tau)
-        .unwrap()
-        .with_longest_dt(T::from_f64(0.1))
+    let rate = T::from_f64(way / (samples * dt.as_f64()));
+    let ramp = Ramp::try_new(rate, T::from_f64(lags * dt.as_f64()));
+    let ramp = ramp
+        .and_then(|ramp| ramp.with_longest_dt(T::from_f64(0.1)))
         .unwrap();
     let mut state = RampState::at(from);
     if bad {
@@ -46,19 +36,26 @@ fn arrives<T: Real>(
     }
     // The ramp takes the way at its rate, a thousandth more for the rounding of rate·dt. The lag then
     // leaves (tau/(tau + dt))^n of the way, until that is an ulp.
-    let digits = -T::epsilon().to_f64().unwrap().ln();
-    let by_lag = (digits + 10.0) / (1.0 + 1.0 / lags.max(1e-9)).ln();
+    let digits = -T::epsilon().as_f64().ln();
+    // The digits are of the target: a way far longer than it takes as many more.
+    let more = 1.0 + (way / wanted.abs().as_f64()).ln().max(9.0);
+    let by_lag = (digits + more) / (1.0 + 1.0 / lags.max(1e-9)).ln();
     let most = 1.001 * samples + by_lag.max(0.0) + 3.0;
     let (mut last, mut taken) = (from, 0.0);
     let rises = wanted > from;
     while taken < most {
         let value = ramp.step(&mut state, wanted, dt);
-        let (low, high) = if rises {
-            (last, wanted)
+        let is_between = if rises {
+            last <= value && value <= wanted
         } else {
-            (wanted, last)
+            wanted <= value && value <= last
         };
-        prop_assert!(low <= value && value <= high, "{last} {value} {wanted}");
+        prop_assert!(is_between, "{last} {value} {wanted}");
+        // The rate·dt, and the distance of two floats there.
+        let moved = (value - last).abs();
+        prop_assert!(
+            moved <= rate * dt + T::epsilon() * T::from_f64(2.0) * (last.abs() + value.abs())
+        );
         (last, taken) = (value, taken + 1.0);
     }
     // The distance of two floats there.

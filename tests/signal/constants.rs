@@ -1,122 +1,80 @@
 //! Configurations in flash: one of each compiles, and is what the run time makes.
-#![allow(clippy::unnecessary_cast)]
 
+use super::*;
 use bowden::hysteresis::BoucWen;
-use bowden::signal::{Biquad, Derivative, EdgeVelocity, LowPass, Plausible, Play, Ramp, Rates};
 use bowden::transmission::Transmission;
-use bowden::Error;
 use bowden::{constant, Constant};
-use proptest::prelude::*;
-use std::fmt::Debug;
 
-/// The same statics and the same comparisons in both floats.
-macro_rules! statics {
+/// Accepted with the same bits, or refused with the same words.
+macro_rules! alike {
+    ($float:ty: $($kind:ident::$make:ident($($x:expr),+);)+) => {$(
+        let constant = Constant::<$kind<$float>>::$make($($x),+);
+        assert_eq!(constant, $kind::<$float>::$make($($x),+));
+    )+};
+}
+
+/// Both floats; a shape that others are made of.
+macro_rules! both {
     ($name:ident, $float:ty) => {
         mod $name {
             use super::*;
 
             static SHAPE: BoucWen<$float> =
                 constant!(BoucWen::<$float>::try_new(0.09582, 98.36, 3.871));
-            static CABLE: Transmission<$float> = constant!(Transmission::<$float>::torque(
-                0.9978, 7.004, 0.05174, SHAPE
-            ));
-            static SPRING: Transmission<$float> = constant!(
-                Transmission::<$float>::displacement(0.9978, 7.004, 0.05174, SHAPE)
-            );
-            static DERIVATIVE: Derivative<$float> =
-                constant!(Derivative::<$float>::try_new(0.01));
-            static PLAY: Play<$float> = constant!(Play::<$float>::try_new(0.2));
-            static RAMP: Ramp<$float> = constant!(Ramp::<$float>::try_new(50.0, 0.02).with_longest_dt(0.005)
-            );
-            static RATES: Rates<$float> = constant!(Rates::<$float>::for_cutoff(5.0)
-            .with_period(4096.0)
-            .with_longest_gap(0.1));
-            static LOW_PASS: LowPass<$float> = constant!(LowPass::<$float>::try_new(0.01));
-            static NOTCH: Biquad<$float> =
-                constant!(Biquad::<$float>::notch(35.0, 5.0, 0.001));
-            static EDGES: EdgeVelocity<$float> =
-                constant!(EdgeVelocity::<$float>::try_new(1.0, 0.01, 0.2)
-                    .with_period(4096.0));
-            static SENSOR: Plausible<$float> = constant!(Plausible::<$float>::try_new(-100.0, 100.0)
-            .with_rate(550.0)
-            .with_sample_period(0.01)
-            .with_longest_dt(0.005))
-            .with_stuck_after(50);
 
             #[test]
             fn a_configuration_in_flash_is_the_one_of_the_run_time() {
-                let shape = BoucWen::try_new(0.09582, 98.36, 3.871);
-                assert_eq!(Ok(SHAPE), shape);
-                assert_eq!(
-                    Ok(CABLE),
-                    Transmission::torque(0.9978, 7.004, 0.05174, SHAPE)
+                in_flash!($float:
+                    BoucWen::try_new(0.09582, 98.36, 3.871);
+                    Transmission::torque(0.9978, 7.004, 0.05174, SHAPE);
+                    Transmission::displacement(0.9978, 7.004, 0.05174, SHAPE);
+                    Derivative::try_new(0.01);
+                    Play::try_new(0.2);
+                    Ramp::try_new(50.0, 0.02).with_longest_dt(0.005);
+                    Rates::for_cutoff(5.0).with_period(4096.0).with_longest_gap(0.1);
+                    LowPass::try_new(0.01);
+                    Biquad::notch(35.0, 5.0, 0.001);
+                    EdgeVelocity::try_new(1.0, 0.01, 0.2).with_period(4096.0);
+                    Plausible::try_new(-100.0, 100.0)
+                        .with_rate(550.0).with_sample_period(0.01).with_longest_dt(0.005);
                 );
-                assert_eq!(
-                    Ok(SPRING),
-                    Transmission::displacement(0.9978, 7.004, 0.05174, SHAPE)
-                );
-                assert_eq!(Ok(DERIVATIVE), Derivative::try_new(0.01));
-                assert_eq!(Ok(PLAY), Play::try_new(0.2));
-                let ramp = Ramp::try_new(50.0, 0.02).and_then(|ramp| ramp.with_longest_dt(0.005));
-                assert_eq!(Ok(RAMP), ramp);
-                let rates = Rates::for_cutoff(5.0)
-                    .and_then(|rates| rates.with_period(4096.0))
-                    .and_then(|rates| rates.with_longest_gap(0.1));
-                assert_eq!(Ok(RATES), rates);
-                assert_eq!(Ok(LOW_PASS), LowPass::try_new(0.01));
-                assert_eq!(Ok(NOTCH), Biquad::notch(35.0, 5.0, 0.001));
-                let edges = EdgeVelocity::try_new(1.0, 0.01, 0.2)
-                    .and_then(|edges| edges.with_period(4096.0));
-                assert_eq!(Ok(EDGES), edges);
-                let sensor = Plausible::try_new(-100.0, 100.0)
-                    .and_then(|sensor| sensor.with_rate(550.0))
-                    .and_then(|sensor| sensor.with_sample_period(0.01))
-                    .and_then(|sensor| sensor.with_longest_dt(0.005))
-                    .map(|sensor| sensor.with_stuck_after(50));
-                assert_eq!(Ok(SENSOR), sensor);
             }
 
             proptest! {
-                /// Accepted with the same bits, or refused with the same words.
                 #[test]
                 fn any_arguments_are_judged_alike(a in any_of(), b in any_of(), c in any_of()) {
-                    type F = $float;
-                    let [a, b, c] = [a as F, b as F, c as F];
-                    alike(Constant::<BoucWen<F>>::try_new(a, b, c), BoucWen::try_new(a, b, c));
-                    alike(
-                        Constant::<Transmission<F>>::torque(a, b, c, SHAPE),
-                        Transmission::torque(a, b, c, SHAPE),
+                    let [a, b, c] = [a, b, c].map(<$float as Real>::from_f64);
+                    let ramp = Ramp::try_new(50.0, 0.02).unwrap();
+                    let rates = Rates::for_cutoff(5.0).unwrap();
+                    let edges = EdgeVelocity::try_new(1.0, 0.01, 0.2).unwrap();
+                    let sensor = Plausible::try_new(-100.0, 100.0).unwrap();
+                    alike!($float:
+                        BoucWen::try_new(a, b, c);
+                        Transmission::torque(a, b, c, SHAPE);
+                        Transmission::displacement(a, b, c, SHAPE);
+                        Derivative::try_new(a);
+                        Play::try_new(a);
+                        Ramp::try_new(a, b);
+                        Ramp::with_longest_dt(ramp, a);
+                        Rates::try_new(a);
+                        Rates::for_cutoff(a);
+                        Rates::with_period(rates, a);
+                        Rates::with_longest_gap(rates, a);
+                        LowPass::try_new(a);
+                        Biquad::low_pass(a, b, c);
+                        Biquad::notch(a, b, c);
+                        EdgeVelocity::try_new(a, b, c);
+                        EdgeVelocity::with_period(edges, a);
+                        Plausible::with_sample_period(sensor, a);
+                        Plausible::with_longest_dt(sensor, a);
                     );
-                    alike(
-                        Constant::<Transmission<F>>::displacement(a, b, c, SHAPE),
-                        Transmission::displacement(a, b, c, SHAPE),
-                    );
-                    alike(Constant::<Derivative<F>>::try_new(a), Derivative::try_new(a));
-                    alike(Constant::<Play<F>>::try_new(a), Play::try_new(a));
-                    alike(Constant::<Ramp<F>>::try_new(a, b), Ramp::try_new(a, b));
-                    alike(Constant::<Ramp<F>>::with_longest_dt(RAMP, a), RAMP.with_longest_dt(a));
-                    alike(Constant::<Rates<F>>::try_new(a), Rates::try_new(a));
-                    alike(Constant::<Rates<F>>::for_cutoff(a), Rates::for_cutoff(a));
-                    alike(Constant::<Rates<F>>::with_period(RATES, a), RATES.with_period(a));
-                    alike(Constant::<Rates<F>>::with_longest_gap(RATES, a), RATES.with_longest_gap(a));
-                    alike(Constant::<LowPass<F>>::try_new(a), LowPass::try_new(a));
-                    alike(Constant::<Biquad<F>>::low_pass(a, b, c), Biquad::low_pass(a, b, c));
-                    alike(Constant::<Biquad<F>>::notch(a, b, c), Biquad::notch(a, b, c));
-                    alike(Constant::<EdgeVelocity<F>>::try_new(a, b, c), EdgeVelocity::try_new(a, b, c));
-                    alike(Constant::<EdgeVelocity<F>>::with_period(EDGES, a), EDGES.with_period(a));
-                    alike(Constant::<Plausible<F>>::with_sample_period(SENSOR, a), SENSOR.with_sample_period(a));
-                    alike(Constant::<Plausible<F>>::with_longest_dt(SENSOR, a), SENSOR.with_longest_dt(a));
                 }
             }
         }
     };
 }
-statics!(single, f32);
-statics!(double, f64);
-
-fn alike<C: Debug + PartialEq>(constant: Result<C, Error>, checked: Result<C, Error>) {
-    assert_eq!(constant, checked);
-}
+both!(single, f32);
+both!(double, f64);
 
 /// Numbers that constructors accept, those at their edges, and any.
 fn any_of() -> impl Strategy<Value = f64> {

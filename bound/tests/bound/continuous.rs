@@ -1,8 +1,6 @@
 //! The continuous certificates against the equations of the loop, at random states.
 
-use super::Random;
-use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, SmoothSign};
-use bowden_bound::{Interval, Known, PeakContinuous, Plant, Rms, Theorem1, Tightest};
+use super::*;
 
 /// A literal law with its plant.
 struct Loop {
@@ -30,9 +28,6 @@ impl Loop {
         let alpha = random.within(0.4, 2.0);
         let theta = random.within(-2.0, 2.0);
         let delta = random.within(0.1, 8.0);
-        let form = Form::AsPublished {
-            time_constant: 0.005,
-        };
         let (gain, lambda) = (random.within(2.0, 30.0), random.within(1.0, 10.0));
         let adapting = |random: &mut Random, low: f64, high: f64| Estimator {
             prior: random.within(low, high),
@@ -40,32 +35,19 @@ impl Loop {
                 .within(low, high)
                 .adapting(random.within(1e-4, 0.1), random.within(0.001, 1.0))
         };
-        let clamped = random.sign() > 0.0;
         let law = Adaptive::try_new(AdaptiveSettings {
-            smooth_sign: if clamped {
-                SmoothSign::Clamp
-            } else {
-                SmoothSign::Tanh
-            },
+            smooth_sign: random.smooth_sign(),
             beta: adapting(random, 0.6 / alpha, 1.4 / alpha),
             delta: adapting(random, 0.0, 9.0),
             theta: [adapting(random, -3.0, 3.0)],
-            ..AdaptiveSettings::unlimited(form, gain, lambda, random.within(0.02, 1.0))
-        })
-        .unwrap();
-        let known = Known {
-            theta: Interval::exactly(theta),
-            magnitude: 2.0,
-            rate: 0.0,
-        };
-        let known = Plant {
-            regressors: [known],
-            reference: 20.0,
-            ..Plant::new(alpha, delta)
-        };
+            ..AdaptiveSettings::unlimited(published(), gain, lambda, random.within(0.02, 1.0))
+        });
+        let plant = with(Plant::new(alpha, delta), |p| {
+            (p.regressors, p.reference) = ([known(Interval::exactly(theta), 2.0, 0.0)], 20.0);
+        });
         Self {
-            law,
-            known,
+            law: law.unwrap(),
+            known: plant,
             alpha,
             theta,
         }
@@ -211,7 +193,6 @@ fn on_the_edge_of_the_continuous_box_the_loop_points_inwards() {
     assert!(boxes > 1000 && nearest < 0.05, "{boxes} {nearest}");
 }
 
-/// V with the best weight of z, target and theta falls as the certificate says.
 #[test]
 fn v_falls_at_every_state_as_the_tightest_form_of_theorem_1_says() {
     let mut random = Random(31);
@@ -235,10 +216,8 @@ fn v_falls_at_every_state_as_the_tightest_form_of_theorem_1_says() {
             v += 0.5 * more * at.z * at.z;
             rate += more * at.z * (at.s - lambda * at.z);
             let room = phi - best.theta * v - rate;
-            assert!(
-                room >= -1e-9 * (phi + v + rate.abs()),
-                "{room} {best:?} {at:?}"
-            );
+            let rounding = 1e-9 * (phi + v + rate.abs());
+            assert!(room >= -rounding, "{room} {best:?} {at:?}");
             least = least.min(room / phi);
         }
     }

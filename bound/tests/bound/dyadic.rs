@@ -1,9 +1,8 @@
 //! Intervals of dyadic numbers against exact rationals.
 
-use bowden_bound::{Dyadic, Enclosure};
+use super::*;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use proptest::prelude::*;
 
 fn exact(x: Dyadic) -> BigRational {
     let (mantissa, exponent) = x.parts();
@@ -20,20 +19,15 @@ fn rational(x: f64) -> BigRational {
     BigRational::from_float(x).unwrap()
 }
 
-/// Whether an interval holds a number, and how wide it is for its size.
+/// Whether an interval holds a number.
 fn holds(interval: Enclosure, number: &BigRational) -> bool {
-    let (low, high) = (exact(interval.low()), exact(interval.high()));
-    low <= *number && *number <= high
+    exact(interval.low()) <= *number && *number <= exact(interval.high())
 }
 
 fn is_narrow(interval: Enclosure, number: &BigRational) -> bool {
-    let (low, high) = (exact(interval.low()), exact(interval.high()));
-    let size = if *number < rational(0.0) {
-        -number.clone()
-    } else {
-        number.clone()
-    };
-    (high - low) * BigInt::from(1_u64 << 58) <= size
+    let width = exact(interval.high()) - exact(interval.low());
+    let size = number.clone().max(-number.clone());
+    width * BigInt::from(1_u64 << 58) <= size
 }
 
 /// Any float, of any size, subnormal ones and zero included.

@@ -2,19 +2,12 @@
 //! simulated plants.
 
 use super::simulated::{at, One, Simulated, BASE, DT};
-use bowden::control::{
-    DisturbanceObserver, NominalPlant, ObserverInput, ObserverState, Pid, PidInput, PidSettings,
-    PidState,
-};
-use bowden::Error;
-use bowden_bound::{Interval, ObserverStability, PlantRange};
-use proptest::prelude::*;
+use super::*;
 
 fn loops(tau: f64, latency: f64, k_p: f64, k_i: f64) -> (DisturbanceObserver<f64>, Pid<f64>) {
     let plant = NominalPlant::try_new(0.6, 25.5, 0.265).unwrap();
     let observer = DisturbanceObserver::try_new(plant, tau, 1e12, 1.0).unwrap();
-    let law = Pid::try_new(PidSettings::unlimited(k_p, k_i)).unwrap();
-    (observer.with_latency(latency).unwrap(), law)
+    (observer.with_latency(latency).unwrap(), pi(k_p, k_i))
 }
 
 /// The largest output of each second, after a push at the start.
@@ -33,17 +26,10 @@ fn peaks(
         for _ in 0..per_second {
             let measured = simulated.measured();
             peak = peak.max(measured.abs());
-            let last = simulated.last();
-            let at = ObserverInput {
-                dt: DT,
-                sent: last,
-                measured,
-            };
-            let feed_forward = observer.step(&mut seen, &at).command;
-            let at = PidInput {
-                feed_forward,
-                ..PidInput::new(DT, 0.0, measured)
-            };
+            let (dt, sent) = (DT, simulated.last());
+            let estimate = observer.step(&mut seen, &ObserverInput { dt, sent, measured });
+            let mut at = PidInput::new(DT, 0.0, measured);
+            at.feed_forward = estimate.command;
             simulated.step(law.step(&mut state, &at).command);
         }
         all.push(peak);
@@ -64,46 +50,32 @@ fn settles(observer: &DisturbanceObserver<f64>, law: &Pid<f64>, plant: One) -> b
 /// and a sample of delay.
 #[test]
 fn of_single_plants_the_edge_of_the_proof_is_the_edge_of_stability() {
-    type Along = (&'static str, fn(One, f64) -> One, f64, f64);
+    type Along = (&'static str, fn(&mut One, f64), f64);
     let along: [Along; 3] = [
-        ("gain", |p, x| One { gain: 0.6 * x, ..p }, 1.0, 100.0),
-        ("wn, downwards", |p, x| One { wn: 25.5 / x, ..p }, 1.0, 3.0),
-        (
-            "delay",
-            |p, x| One {
-                late: (15.0 * x) as usize,
-                ..p
-            },
-            1.0,
-            20.0,
-        ),
+        ("gain", |p, x| p.gain = 0.6 * x, 100.0),
+        ("wn, downwards", |p, x| p.wn = 25.5 / x, 3.0),
+        ("delay", |p, x| p.late = (15.0 * x) as usize, 20.0),
     ];
     for (k_p, k_i) in [(12.0, 60.0), (6.0, 60.0), (12.0, 0.0)] {
         let (observer, law) = loops(0.016, 0.003, k_p, k_i);
-        for (name, plant, low, high) in along {
-            let proved =
-                |x: f64| ObserverStability::try_new(&observer, &law, &at(plant(BASE, x))).is_ok();
-            assert!(proved(low) && !proved(high), "{name} {k_p}");
-            let (mut good, mut bad) = (low, high);
+        for (name, change, high) in along {
+            let plant = |x: f64| with(BASE, |p| change(p, x));
+            let proved = |x| ObserverStability::try_new(&observer, &law, &at(plant(x))).is_ok();
+            assert!(proved(1.0) && !proved(high), "{name} {k_p}");
+            let (mut good, mut bad) = (1.0, high);
             while bad - good > 0.002 {
                 let x = 0.5 * (good + bad);
-                if proved(x) {
-                    good = x;
-                } else {
-                    bad = x;
-                }
+                *(if proved(x) { &mut good } else { &mut bad }) = x;
             }
             // Whole samples of delay are two or three hundredths of it.
-            let inside = plant(BASE, 1.0 + (good - 1.0) * 0.92);
-            let outside = plant(BASE, 1.0 + (good - 1.0) * 1.08 + 0.04);
-            assert!(
-                settles(&observer, &law, inside),
-                "{name} {k_p} {good} {inside:?}"
-            );
+            let inside = plant(1.0 + (good - 1.0) * 0.92);
+            let outside = plant(1.0 + (good - 1.0) * 1.08 + 0.04);
+            let named = format!("{name} {k_p} {good} {inside:?} {outside:?}");
+            assert!(settles(&observer, &law, inside), "{named}");
             let grown = peaks(&observer, &law, outside, 8);
             assert!(
                 grown.len() < 8 || grown[7] > 1.2 * grown[1],
-                "{name} {k_p} {good} {outside:?} {grown:?}"
+                "{named} {grown:?}"
             );
         }
     }
@@ -124,16 +96,16 @@ proptest! {
         pick in prop::collection::vec((0.0..=1.0_f64, 0.0..=1.0_f64, 0.0..=1.0_f64, 0.0..=1.0_f64), 2),
     ) {
         let (observer, law) = loops(tau, latency, k_p, k_i);
-        let around = |x: f64, by: f64| Interval { low: x * (1.0 - by), high: x * (1.0 + by) };
+        let around = |x: f64, by: f64| between(x * (1.0 - by), x * (1.0 + by));
         let samples = |n: usize| (n as f64 + 0.5) * DT;
         let (least, most) = (late.0.min(late.1), late.0.max(late.1));
         let range = PlantRange {
             gain: around(0.6, spread.0),
             natural_frequency: around(25.5, spread.1),
             damping_ratio: around(0.265, spread.2),
-            joint: Interval { low: 0.001, high: 0.004 },
-            slope: Interval { low: flattest, high: 1.1 },
-            latency: Interval { low: samples(least), high: samples(most) },
+            joint: between(0.001, 0.004),
+            slope: between(flattest, 1.1),
+            latency: between(samples(least), samples(most)),
         };
         prop_assume!(ObserverStability::try_new(&observer, &law, &range).is_ok());
         let within = |of: Interval<f64>, share: f64| of.low + share * (of.high - of.low);
@@ -161,45 +133,33 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
     let (observer, law) = loops(0.016, 0.003, 12.0, 60.0);
     let good = at(One { late: 10, ..BASE });
     let refused = |law: &Pid<f64>, spoil: fn(&mut PlantRange)| {
-        let mut range = good;
-        spoil(&mut range);
-        ObserverStability::try_new(&observer, law, &range).err()
+        ObserverStability::try_new(&observer, law, &with(good, spoil)).err()
     };
     assert_eq!(refused(&law, |_| {}), None);
     let one_sign = "gain and nominal gain must have the same sign";
     type Change = fn(&mut PlantRange);
+    #[rustfmt::skip]
     let cases: [(Error, Change); 7] = [
         (Error::OutOfRange("gain"), |r| r.gain.low = -0.1),
-        (Error::OutOfRange("natural_frequency"), |r| {
-            r.natural_frequency.low = r.natural_frequency.high + 1.0;
-        }),
-        (Error::OutOfRange("damping_ratio"), |r| {
-            r.damping_ratio.low = -0.1
-        }),
+        (Error::OutOfRange("natural_frequency"), |r| r.natural_frequency.low = r.natural_frequency.high + 1.0),
+        (Error::OutOfRange("damping_ratio"), |r| r.damping_ratio.low = -0.1),
         (Error::NonFinite("joint"), |r| r.joint.low = f64::NAN),
         (Error::OutOfRange("slope"), |r| r.slope.low = 0.0),
         (Error::OutOfRange("latency"), |r| r.latency.low = -1e-3),
-        (Error::Inadmissible(one_sign), |r| {
-            (r.gain.low, r.gain.high) = (-0.7, -0.5);
-        }),
+        (Error::Inadmissible(one_sign), |r| r.gain = between(-0.7, -0.5)),
     ];
     for (error, spoil) in cases {
         assert_eq!(refused(&law, spoil), Some(error));
     }
-    let damped = PidSettings {
-        k_d: 1.0,
-        derivative_time: 0.01,
-        ..PidSettings::unlimited(12.0, 60.0)
-    };
+    let damped = with(*law.settings(), |s| {
+        (s.k_d, s.derivative_time) = (1.0, 0.01)
+    });
     // Routh: 2·zeta/wn·(1 + alpha·k_p) against alpha·k_i/wn².
-    for (settings, condition) in [
-        (damped, "the law must be a P or a PI"),
-        (
-            PidSettings::unlimited(12.0, 300.0),
-            "the nominal loop without latency must be stable",
-        ),
+    let unstable = "the nominal loop without latency must be stable";
+    for (law, condition) in [
+        (Pid::try_new(damped).unwrap(), "the law must be a P or a PI"),
+        (pi(12.0, 300.0), unstable),
     ] {
-        let law = Pid::try_new(settings).unwrap();
         assert_eq!(refused(&law, |_| {}), Some(Error::Inadmissible(condition)));
     }
 }
@@ -208,19 +168,10 @@ fn what_is_no_range_or_no_loop_is_refused_by_name() {
 fn the_reference_rig_has_room_where_the_nominal_wn_is_low_rather_than_high() {
     let (observer, law) = loops(0.0159, 0.003, 12.0, 60.0);
     let proved = |low: f64, high: f64| {
-        let natural_frequency = Interval {
-            low: 25.5 * low,
-            high: 25.5 * high,
-        };
-        ObserverStability::try_new(
-            &observer,
-            &law,
-            &PlantRange {
-                natural_frequency,
-                ..at(BASE)
-            },
-        )
-        .is_ok()
+        let range = with(at(BASE), |r| {
+            r.natural_frequency = between(25.5 * low, 25.5 * high)
+        });
+        ObserverStability::try_new(&observer, &law, &range).is_ok()
     };
     assert!(proved(0.95, 1.3) && !proved(0.8, 1.0));
 }

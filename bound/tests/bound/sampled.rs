@@ -1,73 +1,54 @@
 //! The box theorem against adversaries.
 
-use super::Random;
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Disturbance, ErrorState, Estimator,
-    Form, LagRecursion, SmoothSign,
-};
-use bowden_bound::{Interval, Known, PeakSampled, Plant, RmsSampled};
+use super::*;
 
 fn law(gain: f64, lambda: f64, share: f64, smooth_sign: SmoothSign) -> Adaptive<f64, 1> {
+    let beta = Estimator::fixed(1.0).within(1.0 - share, 1.0 + share);
     let settings = AdaptiveSettings {
         smooth_sign,
-        beta: Estimator::fixed(1.0)
-            .within(1.0 - share, 1.0 + share)
-            .adapting(0.01, 0.01),
+        beta: beta.adapting(0.01, 0.01),
         delta: Estimator::fixed(1.0).within(0.0, 7.056).adapting(0.5, 0.01),
         theta: [Estimator::fixed(0.0).within(-1.0, 1.0).adapting(0.1, 0.01)],
-        ..AdaptiveSettings::unlimited(
-            Form::FirstOrder {
-                step: 1e-9,
-                plant_gain: 1.0,
-            },
-            gain,
-            lambda,
-            0.2,
-        )
+        ..AdaptiveSettings::unlimited(first_order(1e-9, 1.0), gain, lambda, 0.2)
     };
     // The longest step that is admissible: the condition is met with equality.
     let step = settings.largest_step().unwrap();
-    let form = Form::FirstOrder {
-        step,
-        plant_gain: 1.0,
-    };
-    Adaptive::try_new(AdaptiveSettings { form, ..settings }).unwrap()
+    Adaptive::try_new(with(settings, |s| s.form = first_order(step, 1.0))).unwrap()
 }
 
 fn plant() -> Plant<f64, 1> {
-    let theta = Interval {
-        low: 0.2,
-        high: 0.6,
-    };
     Plant {
         delta_rate: 30.0,
-        regressors: [Known {
-            theta,
-            magnitude: 2.0,
-            rate: 4.0,
-        }],
+        regressors: [known(between(0.2, 0.6), 2.0, 4.0)],
         reference: 38.0,
         reference_rate: 22.2,
         ..Plant::new(1.0, 7.056)
     }
 }
 
-/// The largest `|s|/S` and `|z|·lambda/S` that a random adversary reaches in the box.
-fn attack(law: &Adaptive<f64, 1>, peak: &PeakSampled<f64>, seed: u64) -> (f64, f64) {
-    let settings = law.settings();
+/// The box of a law, its recursion, and its longest step.
+fn boxed(law: &Adaptive<f64, 1>) -> (PeakSampled<f64>, LagRecursion<f64>, f64) {
+    let s = law.settings();
     let recursion = LagRecursion {
-        gain: settings.gain,
-        lambda: settings.lambda,
-        epsilon: settings.epsilon,
-        smooth_sign: settings.smooth_sign,
+        gain: s.gain,
+        lambda: s.lambda,
+        epsilon: s.epsilon,
+        smooth_sign: s.smooth_sign,
     };
-    let (h, mut random) = (law.settings().largest_step().unwrap(), Random(seed));
+    let peak = PeakSampled::try_new(law, &plant()).unwrap();
+    (peak, recursion, s.largest_step().unwrap())
+}
+
+/// The largest `|s|/S` and `|z|·lambda/S` that a random adversary reaches in the box.
+fn attack(law: &Adaptive<f64, 1>, seed: u64) -> (f64, f64) {
+    let settings = law.settings();
+    let (peak, recursion, h) = boxed(law);
+    let mut random = Random(seed);
     let mut at = ErrorState { s: 0.0, z: 0.0 };
     let (mut s, mut z) = (0.0_f64, 0.0_f64);
     for _ in 0..100 {
         // For a while it pushes one way with all it has, or draws everything anew.
         let (side, blind) = (random.sign(), random.within(0.0, 1.0) < 0.3);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let while_ = (random.within(0.0, 5.0) / (h * settings.lambda)) as u32;
         for _ in 0..while_ {
             let mut by = Disturbance {
@@ -98,8 +79,7 @@ fn a_random_adversary_reaches_99_percent_of_the_box_and_never_leaves_it() {
         let (gain, lambda) = (random.within(6.0, 30.0), random.within(5.0, 10.0));
         let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
         let law = law(gain, lambda, random.within(0.01, 0.4), sign);
-        let peak = PeakSampled::try_new(&law, &plant()).unwrap();
-        let (s, z) = attack(&law, &peak, 100 + system as u64);
+        let (s, z) = attack(&law, 100 + system as u64);
         // Rounding of S itself.
         assert!(s <= 1.0 + 1e-12 && z <= 1.0 + 1e-12, "{system}: {s} {z}");
         assert!(s >= 0.99 && z >= 0.99, "{system}: {s} {z}");
@@ -109,25 +89,15 @@ fn a_random_adversary_reaches_99_percent_of_the_box_and_never_leaves_it() {
 #[test]
 fn from_outside_the_errors_come_into_the_box() {
     let law = law(24.0, 8.0, 0.1, SmoothSign::Tanh);
-    let peak = PeakSampled::try_new(&law, &plant()).unwrap();
-    let recursion = LagRecursion {
-        gain: 24.0,
-        lambda: 8.0,
-        epsilon: 0.2,
-        smooth_sign: SmoothSign::Tanh,
-    };
-    let h = law.settings().largest_step().unwrap();
+    let (peak, recursion, h) = boxed(&law);
     let by = Disturbance {
         g: peak.g.low,
         delta_hat: 0.0,
         w: peak.w,
         xi: -h * peak.xi,
     };
-    let mut at = ErrorState {
-        s: 300.0,
-        z: -200.0,
-    };
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let (s, z) = (300.0, -200.0);
+    let mut at = ErrorState { s, z };
     for _ in 0..(5.0 / h) as u32 {
         at = recursion.step(at, h, &by);
     }
@@ -138,16 +108,7 @@ fn from_outside_the_errors_come_into_the_box() {
 
 #[test]
 fn beyond_the_admissible_step_the_box_is_left() {
-    let law = law(24.0, 8.0, 0.1, SmoothSign::Clamp);
-    let peak = PeakSampled::try_new(&law, &plant()).unwrap();
-    let recursion = LagRecursion {
-        gain: 24.0,
-        lambda: 8.0,
-        epsilon: 0.2,
-        smooth_sign: SmoothSign::Clamp,
-    };
-    // Twenty times: h·lambda·g·k alone is eight, where two is the limit of any loop.
-    let h = 20.0 * law.settings().largest_step().unwrap();
+    let (peak, recursion, h) = boxed(&law(24.0, 8.0, 0.1, SmoothSign::Clamp));
     let by = Disturbance {
         g: peak.g.high,
         delta_hat: 7.0,
@@ -156,29 +117,21 @@ fn beyond_the_admissible_step_the_box_is_left() {
     };
     let mut at = ErrorState { s: 0.0, z: 0.0 };
     for _ in 0..100 {
-        at = recursion.step(at, h, &by);
+        // Twenty times: h·lambda·g·k alone is eight, where two is the limit of any loop.
+        at = recursion.step(at, 20.0 * h, &by);
     }
     assert!(at.s.abs() > 1e3 * peak.s);
 }
 
 #[test]
 fn the_shipped_step_never_leaves_the_box_on_a_static_plant() {
-    let known = plant();
     let mut random = Random(3);
     let mut reached = 0.0_f64;
     for system in 0..40 {
         let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
-        let law = law(
-            random.within(6.0, 30.0),
-            random.within(5.0, 10.0),
-            0.2,
-            sign,
-        );
-        let peak = PeakSampled::try_new(&law, &known).unwrap();
-        let (h, lambda) = (
-            law.settings().largest_step().unwrap(),
-            law.settings().lambda,
-        );
+        let (gain, lambda) = (random.within(6.0, 30.0), random.within(5.0, 10.0));
+        let law = law(gain, lambda, 0.2, sign);
+        let (peak, _, h) = boxed(&law);
         let theta = random.within(0.2, 0.6);
         let (mut x, mut d) = (0.0, random.within(-7.0, 7.0));
         // The reference starts where the plant is at rest: e = 0.
@@ -197,10 +150,8 @@ fn the_shipped_step_never_leaves_the_box_on_a_static_plant() {
                 toward(d, 7.056, 30.0),
             ];
             let y = u - theta * x - d;
-            let input = AdaptiveInput {
-                next_reference: next[0],
-                ..AdaptiveInput::new(h, r, y, [x])
-            };
+            let input = AdaptiveInput::new(h, r, y, [x]);
+            let input = with(input, |at| at.next_reference = next[0]);
             let output = law.step_with_terms(&mut state, &input);
             u = output.command;
             let terms = output.terms;
@@ -223,11 +174,7 @@ fn the_mean_square_of_the_error_stays_within_the_sampled_certificate() {
         let sign = [SmoothSign::Tanh, SmoothSign::Clamp][system % 2];
         let (gain, lambda) = (random.within(6.0, 30.0), random.within(3.0, 10.0));
         let law = law(gain, lambda, 0.1, sign);
-        let known = Plant {
-            delta_rate: 3.0,
-            reference_rate: 0.0,
-            ..plant()
-        };
+        let known = with(plant(), |p| (p.delta_rate, p.reference_rate) = (3.0, 0.0));
         let certificate = RmsSampled::try_new(&law, &known).unwrap();
         let h = law.settings().largest_step().unwrap();
         let (theta, mut d, mut sum) = (0.4, 7.0, 0.0);

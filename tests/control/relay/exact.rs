@@ -1,6 +1,6 @@
 //! The limit cycle of a continuous relay, exactly: Tsypkin's series, and closed forms.
 
-use super::plants::Plant;
+use super::*;
 use std::f64::consts::PI;
 
 /// Where a function with one change of sign is zero, by bisection.
@@ -8,11 +8,11 @@ pub fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let above = f(low) > 0.0;
     for _ in 0..200 {
         let middle = (low * high).sqrt();
-        if (f(middle) > 0.0) == above {
-            low = middle;
+        *(if (f(middle) > 0.0) == above {
+            &mut low
         } else {
-            high = middle;
-        }
+            &mut high
+        }) = middle;
     }
     low
 }
@@ -59,13 +59,11 @@ fn series_and_closed_form_agree() {
         let (period, amplitude) = cycle(&plant, hysteresis);
         let (expected, peak) = lag_with_delay(1.0, 0.5, hysteresis);
         // With one lag the terms fall as k⁻²: the rest is 4/(pi·w)/3200 = 1e-4 of 0.39.
-        assert!(
-            (period / expected - 1.0).abs() < 1e-3,
-            "{period} {expected}"
-        );
+        near(period / expected, 1.0, 1e-3);
         // The corner lies between two of 400 points, where the output falls by 1.4·0.83/400.
-        assert!((amplitude - peak).abs() < 3e-3, "{amplitude} {peak}");
+        near(amplitude, peak, 3e-3);
     }
     let (gain, w) = Plant::third_order().ultimate();
-    assert!((gain - 8.0).abs() < 1e-9 && (w - 3.0_f64.sqrt()).abs() < 1e-9);
+    near(gain, 8.0, 1e-9);
+    near(w, 3.0_f64.sqrt(), 1e-9);
 }

@@ -1,29 +1,24 @@
 //! Every fault ends in the safe command, which stays until somebody has seen it.
 
-use super::plants::{Plant, Sampled};
-use super::{ended, result, usual};
-use bowden::control::{Fault, Relay, RelaySettings, RelayState, Status};
+use super::*;
 
 const SAFE: f64 = 0.25;
 
-fn relay() -> Relay<f64> {
-    Relay::try_new(usual()).unwrap()
-}
-
-/// A state in the third cycle of 1/(s + 1)³, and the plant.
-fn under_way(relay: &Relay<f64>) -> (RelayState<f64>, Plant) {
+/// A state in the third cycle of 1/(s + 1)³.
+fn under_way(relay: &Relay<f64>) -> RelayState<f64> {
     let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
     while state.cycles() < 2 {
         let out = relay.step(&mut state, 0.01, plant.output());
         assert!(out.status == Status::Good && state.is_running());
         plant.run(out.command, 0.01);
     }
-    (state, plant)
+    state
 }
 
 /// The safe command is out, whatever comes, until it is acknowledged; then the experiment starts
 /// again and succeeds.
-fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason: Fault) {
+fn stays_and_starts_again(mut state: RelayState<f64>, reason: Fault) {
+    let relay = relay(|_| ());
     let failed = Status::Safe(reason);
     assert!(state.is_latched());
     for k in 0..1000 {
@@ -43,22 +38,33 @@ fn stays_and_starts_again(relay: &Relay<f64>, mut state: RelayState<f64>, reason
     assert_eq!(state.command(), SAFE);
     // A bad sample does not switch the relay on.
     let held = relay.step(&mut state, 0.01, f64::NAN);
-    assert_eq!(held.command, SAFE);
-    assert_eq!(held.status, Status::Held(Fault::Measured));
+    assert_eq!(
+        (held.command, held.status),
+        (SAFE, Status::Held(Fault::Measured))
+    );
     let mut plant = Plant::third_order();
-    loop {
+    while state.result().is_none() {
         let out = relay.step(&mut state, 0.01, plant.output());
         assert_eq!(out.status, Status::Good);
-        if state.result().is_some() {
-            break;
-        }
         plant.run(out.command, 0.01);
     }
 }
 
+/// An experiment that fails for this reason.
+fn fails(
+    settings: Settings<f64>,
+    plant: &Plant,
+    sampled: Sampled,
+    reason: Fault,
+) -> RelayState<f64> {
+    let (out, state) = ended(settings, plant, sampled);
+    assert_eq!((out.command, out.status), (SAFE, Status::Safe(reason)));
+    state
+}
+
 #[test]
 fn a_bad_sample_holds_the_command_and_too_many_are_the_end() {
-    let relay = relay();
+    let relay = relay(|_| ());
     for (dt, measured, fault) in [
         (0.01, f64::NAN, Fault::Measured),
         (0.01, f64::INFINITY, Fault::Measured),
@@ -68,126 +74,100 @@ fn a_bad_sample_holds_the_command_and_too_many_are_the_end() {
         (-0.01, 0.0, Fault::DtNotPositive),
         (0.51, 0.0, Fault::DtTooLong),
     ] {
-        let (mut state, _) = under_way(&relay);
-        let before = state.command();
-        assert_eq!(before, 1.0);
-        for _ in 0..9 {
+        let mut state = under_way(&relay);
+        assert_eq!(state.command(), 1.0);
+        for count in 1..=10 {
             let out = relay.step(&mut state, dt, measured);
-            assert_eq!((out.command, out.status), (before, Status::Held(fault)));
+            let held = (1.0, Status::Held(fault));
+            let expected = if count < 10 {
+                held
+            } else {
+                (SAFE, Status::Safe(fault))
+            };
+            assert_eq!((out.command, out.status), expected);
         }
-        let out = relay.step(&mut state, dt, measured);
-        assert_eq!((out.command, out.status), (SAFE, Status::Safe(fault)));
-        stays_and_starts_again(&relay, state, fault);
+        stays_and_starts_again(state, fault);
     }
 }
 
 #[test]
 fn an_output_out_of_range_is_the_end_at_once() {
-    let relay = relay();
+    let relay = relay(|_| ());
     for measured in [10.01, -10.01, f64::MAX, f64::MIN] {
-        let (mut state, _) = under_way(&relay);
+        let mut state = under_way(&relay);
         relay.step(&mut state, 0.01, 10.0 * measured.signum());
         assert!(state.is_running());
         let out = relay.step(&mut state, 0.01, measured);
-        assert_eq!(out.command, SAFE);
-        assert_eq!(out.status, Status::Safe(Fault::OutputOutOfRange));
-        stays_and_starts_again(&relay, state, Fault::OutputOutOfRange);
+        assert_eq!(
+            (out.command, out.status),
+            (SAFE, Status::Safe(Fault::OutputOutOfRange))
+        );
+        stays_and_starts_again(state, Fault::OutputOutOfRange);
     }
 }
 
 /// The wrong sign pushes the output away: it never comes back, or leaves its range.
 #[test]
 fn the_wrong_sign_of_the_amplitude_fails() {
-    let settings = RelaySettings {
-        amplitude: -1.0,
-        ..usual()
-    };
-    let plant = Plant::third_order();
-    let (out, state) = ended::<f64>(settings, &plant, &mut Sampled::every(0.01));
-    assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
-    assert_eq!((out.command, state.cycles()), (SAFE, 0));
-    let narrow = RelaySettings {
-        most_deviation: 0.5,
-        ..settings
-    };
-    let (out, _) = ended::<f64>(narrow, &plant, &mut Sampled::every(0.01));
-    assert_eq!(out.status, Status::Safe(Fault::OutputOutOfRange));
+    let (wrong, plant) = (with(usual(), |s| s.amplitude = -1.0), Plant::third_order());
+    let state = fails(wrong, &plant, Sampled::every(0.01), Fault::NoOscillation);
+    assert_eq!(state.cycles(), 0);
+    let narrow = with(wrong, |s| s.most_deviation = 0.5);
+    fails(
+        narrow,
+        &plant,
+        Sampled::every(0.01),
+        Fault::OutputOutOfRange,
+    );
 }
 
-/// A load above the amplitude, an output that does not move, a lag that follows at once.
+/// A load above the amplitude, an output that does not move; a lag without delay, which switches at
+/// every sample or two: no period that is known.
 #[test]
 fn no_oscillation_is_told_at_the_longest_time() {
     let loaded = Plant::third_order().with_load(-2.0);
-    let still = Plant::new(0.0, &[1.0], 0.0);
-    for plant in [loaded, still] {
-        let (out, state) = ended::<f64>(usual(), &plant, &mut Sampled::every(0.01));
-        let reason = Fault::NoOscillation;
-        assert_eq!((out.command, out.status), (SAFE, Status::Safe(reason)));
-        stays_and_starts_again(&relay(), state, reason);
+    let (still, quick) = (Plant::new(0.0, &[1.0], 0.0), Plant::new(1.0, &[1.0], 0.0));
+    for (plant, reason) in [
+        (loaded, Fault::NoOscillation),
+        (still, Fault::NoOscillation),
+        (quick, Fault::TimeOut),
+    ] {
+        let state = fails(usual(), &plant, Sampled::every(0.01), reason);
+        assert!(reason == Fault::NoOscillation || state.cycles() > 1000);
+        stays_and_starts_again(state, reason);
     }
 }
 
-/// A first-order lag without delay switches at every sample or two: no period that is known.
-#[test]
-fn a_cycle_of_a_few_samples_is_no_result() {
-    let plant = Plant::new(1.0, &[1.0], 0.0);
-    let (out, state) = ended::<f64>(usual(), &plant, &mut Sampled::every(0.01));
-    assert_eq!(out.status, Status::Safe(Fault::TimeOut));
-    assert!(state.cycles() > 1000);
-    stays_and_starts_again(&relay(), state, Fault::TimeOut);
-}
-
-/// Noise far beyond the hysteresis: every period is another one, or too short.
 #[test]
 fn chatter_is_no_result() {
-    for seed_dt in [0.01, 0.011, 0.012] {
-        let mut sampled = Sampled::every(seed_dt).noisy(0.5);
-        let (out, _) = ended::<f64>(usual(), &Plant::third_order(), &mut sampled);
-        assert_eq!(out.status, Status::Safe(Fault::TimeOut));
-        assert_eq!(out.command, SAFE);
+    for dt in [0.01, 0.011, 0.012] {
+        let noisy = Sampled::every(dt).noisy(0.5);
+        fails(usual(), &Plant::third_order(), noisy, Fault::TimeOut);
     }
 }
 
-/// One bad measurement in ten, with its time: the same result as without.
 #[test]
 fn bad_measurements_whose_time_is_known_leave_the_result() {
-    let plant = Plant::third_order();
-    let expected = result::<f64>(usual(), &plant, &mut Sampled::every(0.005));
-    let relay = relay();
-    let (mut state, mut plant) = (RelayState::new(), plant);
-    for k in 0.. {
-        let measured = if k % 10 == 9 {
-            f64::NAN
-        } else {
-            plant.output()
-        };
-        let out = relay.step(&mut state, 0.005, measured);
-        plant.run(out.command, 0.005);
-        if let Some(it) = state.result() {
-            // A switch is one sample later at most, and the cycle longer by four.
-            assert!(
-                (it.period - expected.period).abs() < 4.0 * 0.005,
-                "{it:?} {expected:?}"
-            );
-            assert!(
-                (it.gain / expected.gain - 1.0).abs() < 0.02,
-                "{it:?} {expected:?}"
-            );
-            return;
-        }
-        assert!(state.is_running(), "{out:?}");
+    let mut plant = Plant::third_order();
+    let expected = result::<f64>(usual(), &plant, Sampled::every(0.005));
+    let (relay, mut state) = (relay(|_| ()), RelayState::new());
+    let mut k = 0;
+    while state.is_running() {
+        let is_lost = k % 10 == 9;
+        let measured = if is_lost { f64::NAN } else { plant.output() };
+        plant.run(relay.step(&mut state, 0.005, measured).command, 0.005);
+        k += 1;
     }
+    let it = state.result().unwrap();
+    // A switch is one sample later at most, and the cycle longer by four.
+    near(it.period, expected.period, 4.0 * 0.005);
+    near(it.gain / expected.gain, 1.0, 0.02);
 }
 
-/// The cycle with an unknown time is not averaged: with one in each cycle there is no result.
 #[test]
 fn a_cycle_whose_time_is_unknown_does_not_count() {
     // A hysteresis, so that no cycle of a few samples passes between two of the unknown times.
-    let relay = Relay::try_new(RelaySettings {
-        hysteresis: 0.05,
-        ..usual()
-    })
-    .unwrap();
+    let relay = relay(|s| s.hysteresis = 0.05);
     let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
     let mut time = 0;
     let out = loop {
@@ -201,17 +181,16 @@ fn a_cycle_whose_time_is_unknown_does_not_count() {
         time += 1;
     };
     assert_eq!(state.cycles(), 0);
-    assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
-    assert_eq!(out.command, SAFE);
+    assert_eq!(
+        (out.command, out.status),
+        (SAFE, Status::Safe(Fault::NoOscillation))
+    );
 }
 
 #[test]
 fn a_result_leaves_the_centre_out_whatever_comes() {
-    let settings = RelaySettings {
-        centre: 0.1,
-        ..usual()
-    };
-    let (out, mut state) = ended::<f64>(settings, &Plant::third_order(), &mut Sampled::every(0.01));
+    let settings = with(usual(), |s| s.centre = 0.1);
+    let (out, mut state) = ended::<f64>(settings, &Plant::third_order(), Sampled::every(0.01));
     let relay = Relay::try_new(settings).unwrap();
     let found = state.result();
     assert!(found.is_some() && out.status == Status::Good);

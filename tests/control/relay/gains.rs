@@ -1,9 +1,7 @@
 //! The gains that follow: margins by the frequency response, and a loop that is closed with them.
 
 use super::exact::root;
-use super::plants::{Plant, Sampled};
-use super::{result, usual};
-use bowden::control::{PiGains, PiRule, Pid, PidInput, PidSettings, PidState, RelaySettings};
+use super::*;
 use std::f64::consts::PI;
 
 /// Gain margin, and phase margin in degrees, of a PI on a plant.
@@ -32,16 +30,13 @@ fn plants() -> Vec<Plant> {
 fn the_gains_have_the_margins_that_the_docs_state() {
     for plant in plants() {
         let dt = 2.0 * PI / plant.ultimate().1 / 500.0;
-        let it = result::<f64>(usual(), &plant, &mut Sampled::every(dt));
+        let it = result::<f64>(usual(), &plant, Sampled::every(dt));
         let of = |rule| margins(&plant, &it.pi(rule), 0.5 * dt);
         let (gain, phase) = of(PiRule::TyreusLuyben);
         assert!(gain > 2.5 && phase > 45.0, "{gain} {phase} {it:?}");
         let (fast_gain, fast_phase) = of(PiRule::ZieglerNichols);
-        assert!(
-            fast_gain > 1.5 && fast_phase > 15.0,
-            "{fast_gain} {fast_phase}"
-        );
-        assert!(fast_gain < gain && fast_phase < phase);
+        assert!((1.5..gain).contains(&fast_gain), "{fast_gain} {it:?}");
+        assert!((15.0..phase).contains(&fast_phase), "{fast_phase} {it:?}");
     }
 }
 
@@ -51,16 +46,13 @@ fn a_loop_with_these_gains_reaches_its_reference() {
         let period = 2.0 * PI / plant.ultimate().1;
         let dt = period / 200.0;
         for rule in [PiRule::TyreusLuyben, PiRule::ZieglerNichols] {
-            let settings = RelaySettings {
-                agreement: 0.05,
-                ..usual()
-            };
-            let gains = result::<f64>(settings, &plant, &mut Sampled::every(dt)).pi(rule);
-            let pi = Pid::try_new(PidSettings::unlimited(gains.k_p, gains.k_i)).unwrap();
+            let settings = with(usual(), |s| s.agreement = 0.05);
+            let gains = result::<f64>(settings, &plant, Sampled::every(dt)).pi(rule);
+            let pi = pid(gains.k_p, gains.k_i, |_| ());
             let (mut state, mut plant) = (PidState::new(), plant.clone());
             for k in 0..40 * 200 {
-                let command = pid_step(&pi, &mut state, dt, plant.output());
-                plant.run(command, dt);
+                let at = PidInput::new(dt, 1.0, plant.output());
+                plant.run(pi.step(&mut state, &at).command, dt);
                 // The slowest loop, a delay under the cautious rule, has a time constant of T_i/k_p
                 // = 5.5 periods: e^(−30/5.5) = 0.4 % is left.
                 let error = (plant.output() - 1.0).abs();
@@ -68,8 +60,4 @@ fn a_loop_with_these_gains_reaches_its_reference() {
             }
         }
     }
-}
-
-fn pid_step(pi: &Pid<f64>, state: &mut PidState<f64>, dt: f64, measured: f64) -> f64 {
-    pi.step(state, &PidInput::new(dt, 1.0, measured)).command
 }

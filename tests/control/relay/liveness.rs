@@ -1,9 +1,6 @@
 //! The experiment ends: with a result where the plant oscillates, at the longest time in any case.
 
-use super::plants::{Plant, Sampled};
-use super::{ended, usual};
-use bowden::control::{Fallback, Fault, Relay, RelaySettings, RelayState, Status};
-use proptest::prelude::*;
+use super::*;
 use std::f64::consts::PI;
 
 proptest! {
@@ -18,8 +15,8 @@ proptest! {
     ) {
         let lags: Vec<f64> = lags.iter().map(|exponent| 10.0_f64.powf(*exponent)).collect();
         let sign = if negative { -1.0 } else { 1.0 };
-        let plant = Plant::new(sign * 10.0_f64.powf(gain), &lags, delay * lags[0]);
-        let (true_gain, w) = Plant::new(10.0_f64.powf(gain), &lags, delay * lags[0]).ultimate();
+        let [plant, positive] = [sign, 1.0].map(|k| Plant::new(k * 10.0_f64.powf(gain), &lags, delay * lags[0]));
+        let (true_gain, w) = positive.ultimate();
         let period = 2.0 * PI / w;
         let settings = RelaySettings {
             amplitude: sign,
@@ -29,8 +26,8 @@ proptest! {
             longest_dt: period / 50.0,
             ..usual()
         };
-        let mut sampled = Sampled::every(period / 200.0).jittering(jitter);
-        let (out, state) = ended::<f64>(settings, &plant, &mut sampled);
+        let sampled = Sampled::every(period / 200.0).jittering(jitter);
+        let (out, state) = ended::<f64>(settings, &plant, sampled);
         let Some(it) = state.result() else {
             return Err(TestCaseError::fail(format!("{:?}", out.status)));
         };
@@ -46,13 +43,7 @@ proptest! {
         samples in prop::collection::vec((0..6_u8, -12.0..12.0_f32), 50),
         tiny: bool,
     ) {
-        let settings = RelaySettings {
-            longest_time: 20.0_f32,
-            longest_dt: 0.1,
-            most_deviation: 11.0,
-            ..usual()
-        };
-        let relay = Relay::try_new(settings).unwrap();
+        let relay = relay::<f32>(|s| (s.longest_time, s.longest_dt, s.most_deviation) = (20.0, 0.1, 11.0));
         let mut state = RelayState::new();
         let (mut time, mut ended_at) = (0.0_f64, None);
         for (kind, measured) in samples.iter().cycle().take(5000) {
@@ -88,28 +79,19 @@ proptest! {
 #[test]
 fn the_longest_time_is_neither_shortened_nor_exceeded() {
     for dt in [1e-4_f32, 1e-3, 0.013] {
-        let settings = RelaySettings {
-            longest_time: 100.0,
-            ..usual()
-        };
-        let relay = Relay::try_new(settings).unwrap();
-        let mut state = RelayState::new();
-        let mut count = 0_u32;
-        let out = loop {
-            count += 1;
-            let out = relay.step(&mut state, dt, 1.0);
-            if !state.is_running() {
-                break out;
-            }
-        };
-        assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
+        let (relay, mut state) = (relay(|s| s.longest_time = 100.0), RelayState::new());
+        let (mut count, mut status) = (0.0, Status::Good);
+        while state.is_running() {
+            status = relay.step(&mut state, dt, 1.0).status;
+            count += 1.0;
+        }
+        assert_eq!(status, Status::Safe(Fault::NoOscillation));
         let expected = 100.0 / f64::from(dt);
         // n/2³² of the time, and the sample in which it is over; f32 knows a share to 1e-7.
-        let early = expected * expected / 4.3e9 + 1.0 + 2e-7 * expected;
         let late = 1.0 + 2e-7 * expected;
-        let count = f64::from(count);
+        let early = expected * expected / 4.3e9 + late;
         assert!(
-            expected - early <= count && count <= expected + late,
+            (expected - early..=expected + late).contains(&count),
             "{count} {expected}"
         );
     }
@@ -118,12 +100,7 @@ fn the_longest_time_is_neither_shortened_nor_exceeded() {
 /// Steps of 1e-30 s pass no time that a float of 100 s could show, and yet each takes a tick.
 #[test]
 fn a_clock_that_hardly_moves_takes_from_the_time() {
-    let settings = RelaySettings {
-        longest_time: 100.0_f32,
-        ..usual()
-    };
-    let relay = Relay::try_new(settings).unwrap();
-    let mut state = RelayState::new();
+    let (relay, mut state) = (relay(|s| s.longest_time = 100.0_f32), RelayState::new());
     for k in 1..1000 {
         relay.step(&mut state, 1e-30, 1.0);
         assert_eq!(state.remaining(), u32::MAX - k);
@@ -133,11 +110,7 @@ fn a_clock_that_hardly_moves_takes_from_the_time() {
 /// A clock that fails for good: each sample takes the longest `dt`, so that 400 of 0.5 s are 200 s.
 #[test]
 fn samples_without_a_time_take_the_longest_one() {
-    let settings = RelaySettings {
-        fallback: Fallback::try_new(u32::MAX, 0.25).unwrap(),
-        ..usual::<f64>()
-    };
-    let relay = Relay::try_new(settings).unwrap();
+    let relay = relay(|s| s.fallback = Fallback::try_new(u32::MAX, 0.25).unwrap());
     for dt in [f64::NAN, 0.0, -1.0, 9.0] {
         let mut state = RelayState::new();
         for _ in 0..399 {
@@ -145,7 +118,7 @@ fn samples_without_a_time_take_the_longest_one() {
             assert!(state.is_running());
         }
         let out = relay.step(&mut state, dt, 0.0);
-        assert_eq!(out.status, Status::Safe(Fault::NoOscillation));
-        assert_eq!(out.command, 0.25);
+        let ended = Status::Safe(Fault::NoOscillation);
+        assert_eq!((out.command, out.status), (0.25, ended));
     }
 }

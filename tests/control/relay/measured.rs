@@ -1,10 +1,7 @@
 //! What is measured of plants whose limit cycle is known.
 
 use super::exact::{cycle, lag_with_delay};
-use super::plants::{Plant, Sampled};
-use super::{result, usual};
-use bowden::control::{RelaySettings, Ultimate};
-use bowden::Real;
+use super::*;
 use std::f64::consts::PI;
 
 /// k_u of an amplitude by the describing function of a unit relay.
@@ -14,11 +11,10 @@ fn described(amplitude: f64, hysteresis: f64) -> f64 {
 
 /// Settings under which the last cycles differ by 1e-3: what remains of the start is below that.
 fn precise<T: Real>(hysteresis: f64) -> RelaySettings<T> {
-    RelaySettings {
-        hysteresis: T::from_f64(hysteresis),
-        agreement: T::from_f64(1e-3),
-        ..usual()
-    }
+    let [hysteresis, agreement] = [hysteresis, 1e-3].map(T::from_f64);
+    with(usual(), |s| {
+        (s.hysteresis, s.agreement) = (hysteresis, agreement)
+    })
 }
 
 /// The cycle is the exact one of a continuous relay, but for the sampling and the start.
@@ -33,14 +29,24 @@ fn is_the_exact_cycle(it: &Ultimate<f64>, exact: (f64, f64), hysteresis: f64, dt
     // delay, and by less for the others.
     let reached = (1.0 + amplitude) * dt;
     let higher = it.amplitude - amplitude;
+    let start = 1e-3 * amplitude;
     assert!(
-        -1e-3 * amplitude < higher && higher < reached + 1e-3 * amplitude,
+        -start < higher && higher < reached + start,
         "{it:?} {exact:?}"
     );
-    let gain = described(it.amplitude, hysteresis);
     // The mean of the duty is 1/2 to the start's 1e-3, and the sine to its square; f32 to 1e-6.
-    assert!((it.gain / gain - 1.0).abs() < 1e-5, "{it:?} {gain}");
-    assert!((it.duty - 0.5).abs() < 1e-3, "{it:?}");
+    near(it.gain / described(it.amplitude, hysteresis), 1.0, 1e-5);
+    near(it.duty, 0.5, 1e-3);
+}
+
+/// In both floats, and with a jitter.
+fn finds_the_cycle(plant: &Plant, exact: (f64, f64), hysteresis: f64) {
+    let dt = exact.0 / 4000.0;
+    let it = result::<f64>(precise(hysteresis), plant, Sampled::every(dt));
+    is_the_exact_cycle(&it, exact, hysteresis, dt);
+    let jittering = Sampled::every(dt).jittering(0.5);
+    let it = result::<f32>(precise(hysteresis), plant, jittering);
+    is_the_exact_cycle(&it, exact, hysteresis, 1.5 * dt);
 }
 
 #[test]
@@ -51,13 +57,7 @@ fn the_limit_cycle_is_that_of_tsypkin() {
         Plant::new(1.0, &[0.3, 0.2, 0.1, 0.05], 0.0),
     ] {
         for hysteresis in [0.0, 0.02] {
-            let exact = cycle(&plant, hysteresis);
-            let dt = exact.0 / 4000.0;
-            let it = result::<f64>(precise(hysteresis), &plant, &mut Sampled::every(dt));
-            is_the_exact_cycle(&it, exact, hysteresis, dt);
-            let mut jittering = Sampled::every(dt).jittering(0.5);
-            let it = result::<f32>(precise(hysteresis), &plant, &mut jittering);
-            is_the_exact_cycle(&it, exact, hysteresis, 1.5 * dt);
+            finds_the_cycle(&plant, cycle(&plant, hysteresis), hysteresis);
         }
     }
 }
@@ -65,14 +65,12 @@ fn the_limit_cycle_is_that_of_tsypkin() {
 #[test]
 fn the_limit_cycle_of_a_lag_with_delay_is_the_closed_form() {
     for delay in [0.1, 1.0, 10.0] {
+        let exact = lag_with_delay(1.0, delay, 0.02);
         let plant = Plant::new(1.0, &[1.0], delay);
-        let hysteresis = 0.02;
-        let exact = lag_with_delay(1.0, delay, hysteresis);
-        let dt = exact.0 / 4000.0;
-        let it = result::<f64>(precise(hysteresis), &plant, &mut Sampled::every(dt));
-        is_the_exact_cycle(&it, exact, hysteresis, dt);
-        let it = result::<f32>(precise(hysteresis), &plant, &mut Sampled::every(dt));
-        is_the_exact_cycle(&it, exact, hysteresis, dt);
+        finds_the_cycle(&plant, exact, 0.02);
+        let (precise, dt) = (precise(0.02), exact.0 / 4000.0);
+        let it = result::<f32>(precise, &plant, Sampled::every(dt));
+        is_the_exact_cycle(&it, exact, 0.02, dt);
     }
 }
 
@@ -83,17 +81,15 @@ fn the_limit_cycle_of_a_lag_with_delay_is_the_closed_form() {
 fn the_describing_function_has_the_error_that_the_docs_state() {
     let share = |amplitude: f64, plant: &Plant| described(amplitude, 0.0) / plant.ultimate().0;
     let third = Plant::third_order();
-    let error = share(cycle(&third, 0.0).1, &third) - 1.0;
-    assert!((error + 0.023).abs() < 0.005, "{error}");
+    near(share(cycle(&third, 0.0).1, &third), 1.0 - 0.023, 0.005);
     let amplitude = cycle(&third, 0.02).1;
-    assert!((0.02 / amplitude - 0.1).abs() < 0.005, "{amplitude}");
-    let error = described(amplitude, 0.02) / 8.0 - 1.0;
-    assert!((error + 0.175).abs() < 0.0005, "{error}");
+    near(0.02 / amplitude, 0.1, 0.005);
+    near(described(amplitude, 0.02) / 8.0, 1.0 - 0.175, 0.0005);
     let of_delay = |delay: f64| {
         let plant = Plant::new(1.0, &[1.0], delay);
         share(lag_with_delay(1.0, delay, 0.0).1, &plant) - 1.0
     };
-    assert!((of_delay(1.0) + 0.11).abs() < 0.005, "{}", of_delay(1.0));
+    near(of_delay(1.0), -0.11, 0.005);
     // 8/pi² − 1 is that of an integrator with delay, 4/pi − 1 that of a pure delay.
     for k in -30..=30 {
         let error = of_delay(10.0_f64.powf(0.1 * f64::from(k)));
@@ -106,23 +102,16 @@ fn the_describing_function_has_the_error_that_the_docs_state() {
 fn noise_within_the_hysteresis_leaves_the_result() {
     let plant = Plant::third_order();
     let noise = 0.01;
-    for seed_dt in [0.004, 0.005, 0.006] {
-        let settings = RelaySettings {
-            hysteresis: noise,
-            agreement: 0.1,
-            ..usual()
-        };
-        let quiet = result::<f64>(settings, &plant, &mut Sampled::every(seed_dt));
-        let mut sampled = Sampled::every(seed_dt).noisy(noise).jittering(0.3);
-        let it = result::<f64>(settings, &plant, &mut sampled);
+    for dt in [0.004, 0.005, 0.006] {
+        let settings = with(usual(), |s| (s.hysteresis, s.agreement) = (noise, 0.1));
+        let quiet = result::<f64>(settings, &plant, Sampled::every(dt));
+        let sampled = Sampled::every(dt).noisy(noise).jittering(0.3);
+        let it = result::<f64>(settings, &plant, sampled);
         // The noise switches the relay early, by 2·noise of a slope of a·w: the cycle is shorter than
         // with the hysteresis alone, by 2·noise/(a·w) at each of two switches and as much again.
         let early = 8.0 * noise / (quiet.amplitude * 2.0 * PI / quiet.period);
-        assert!((it.period - quiet.period).abs() < early, "{it:?} {quiet:?}");
-        assert!(
-            (it.amplitude - quiet.amplitude).abs() < 2.0 * noise,
-            "{it:?} {quiet:?}"
-        );
+        near(it.period, quiet.period, early);
+        near(it.amplitude, quiet.amplitude, 2.0 * noise);
     }
 }
 
@@ -130,10 +119,10 @@ fn noise_within_the_hysteresis_leaves_the_result() {
 /// k_u too low: two outputs half a period apart differ by the odd harmonics alone.
 #[test]
 fn a_load_makes_the_halves_unequal_and_the_result_cautious() {
-    let symmetric = result::<f64>(usual(), &Plant::third_order(), &mut Sampled::every(0.002));
+    let symmetric = result::<f64>(usual(), &Plant::third_order(), Sampled::every(0.002));
     for load in [-0.3, 0.2, 0.3] {
         let plant = Plant::third_order().with_load(load);
-        let loaded = result::<f64>(usual(), &plant, &mut Sampled::every(0.002));
+        let loaded = result::<f64>(usual(), &plant, Sampled::every(0.002));
         assert!((loaded.duty - 0.5) * load < 0.0, "{loaded:?}");
         let share = loaded.gain / symmetric.gain;
         // 5 % at D = 0.62, as the docs say.
@@ -148,55 +137,33 @@ fn the_mean_command_as_the_next_centre_makes_the_halves_equal() {
     let plant = Plant::third_order().with_load(-0.3);
     let (mut centre, mut off) = (0.0, 0.5);
     for _ in 0..6 {
-        let settings = RelaySettings { centre, ..usual() };
-        let duty = result(settings, &plant, &mut Sampled::every(0.002)).duty;
+        let settings = with(usual(), |s| s.centre = centre);
+        let duty = result(settings, &plant, Sampled::every(0.002)).duty;
         // Each repetition takes away more than half of the difference.
         assert!((duty - 0.5).abs() < 0.5 * off + 1e-3, "{duty} {off}");
         off = (duty - 0.5).abs();
         centre += 2.0 * duty - 1.0;
     }
     // Equal halves need the command that carries the load.
-    assert!((centre - 0.3).abs() < 0.01, "{centre}");
+    near(centre, 0.3, 0.01);
 }
 
-/// The sign of the amplitude is that of the plant's gain, and the result has it.
+/// The sign of the amplitude is that of the plant's gain, and the result has it. A scale of the output
+/// and of the command changes k_u by their ratio, and a period not at all.
 #[test]
-fn a_plant_with_a_negative_gain_has_a_negative_amplitude() {
+fn a_result_has_the_units_and_the_sign_of_the_plant() {
+    let sampled = || Sampled::every(0.002);
     let lags = [1.0, 0.5, 0.2];
-    let plus = result::<f64>(
-        usual(),
-        &Plant::new(2.0, &lags, 0.0),
-        &mut Sampled::every(0.002),
-    );
-    let settings = RelaySettings {
-        amplitude: -1.0,
-        ..usual()
-    };
-    let minus = result(
-        settings,
-        &Plant::new(-2.0, &lags, 0.0),
-        &mut Sampled::every(0.002),
-    );
+    let plus = result::<f64>(usual(), &Plant::new(2.0, &lags, 0.0), sampled());
+    let reversed = with(usual(), |s| s.amplitude = -1.0);
+    let minus = result(reversed, &Plant::new(-2.0, &lags, 0.0), sampled());
     assert!(minus.gain < 0.0);
-    assert!(
-        (plus.gain + minus.gain).abs() < 1e-9 * plus.gain,
-        "{plus:?} {minus:?}"
-    );
-    assert!((plus.period - minus.period).abs() < 1e-9);
-}
-
-/// A scale of the output and of the command changes k_u by their ratio, and a period not at all.
-#[test]
-fn a_result_has_the_units_of_the_plant() {
-    let scaled = Plant::new(50.0, &[1.0; 3], 0.0);
-    let settings = RelaySettings {
-        amplitude: 2.0,
-        most_deviation: 1000.0,
-        ..usual()
-    };
-    let one = result::<f64>(usual(), &Plant::third_order(), &mut Sampled::every(0.002));
-    let other = result(settings, &scaled, &mut Sampled::every(0.002));
-    assert!((other.gain * 50.0 / one.gain - 1.0).abs() < 1e-9);
-    assert!((other.amplitude / (100.0 * one.amplitude) - 1.0).abs() < 1e-9);
-    assert!((other.period - one.period).abs() < 1e-9);
+    near(-minus.gain / plus.gain, 1.0, 1e-9);
+    near(plus.period, minus.period, 1e-9);
+    let scaled = with(usual(), |s| (s.amplitude, s.most_deviation) = (2.0, 1000.0));
+    let one = result::<f64>(usual(), &Plant::third_order(), sampled());
+    let other = result(scaled, &Plant::new(50.0, &[1.0; 3], 0.0), sampled());
+    near(other.gain * 50.0 / one.gain, 1.0, 1e-9);
+    near(other.amplitude / (100.0 * one.amplitude), 1.0, 1e-9);
+    near(other.period, one.period, 1e-9);
 }

@@ -1,5 +1,6 @@
 //! Lags in series behind a delay: simulated by Runge-Kutta, and as a frequency response.
 
+use super::*;
 use std::collections::VecDeque;
 
 #[derive(Debug, Clone)]
@@ -104,7 +105,7 @@ pub struct Sampled {
     nominal: f64,
     jitter: f64,
     noise: f64,
-    seed: u64,
+    random: Random,
 }
 
 impl Sampled {
@@ -114,7 +115,7 @@ impl Sampled {
             nominal: dt,
             jitter: 0.0,
             noise: 0.0,
-            seed: 1,
+            random: Random(1),
         }
     }
 
@@ -130,17 +131,10 @@ impl Sampled {
 
     /// The time since the sample before, and the noise of this one.
     pub fn next(&mut self) -> (f64, f64) {
-        (self.dt, self.noise * self.uniform())
+        (self.dt, self.noise * self.random.within(-1.0, 1.0))
     }
 
     pub fn drawn(&mut self) -> f64 {
-        self.nominal * (1.0 + self.jitter * self.uniform())
-    }
-
-    /// From -1 to 1, by a linear congruence (Knuth's MMIX).
-    fn uniform(&mut self) -> f64 {
-        let next = self.seed.wrapping_mul(6_364_136_223_846_793_005);
-        self.seed = next.wrapping_add(1_442_695_040_888_963_407);
-        (self.seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        self.nominal * (1.0 + self.jitter * self.random.within(-1.0, 1.0))
     }
 }

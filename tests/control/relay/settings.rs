@@ -1,9 +1,7 @@
 //! Settings, constants and stored forms.
 
-use super::usual;
-use bowden::control::{Fallback, Limits, PiRule, Relay, RelaySettings, Ultimate};
+use super::*;
 use bowden::Constant;
-use bowden::Error;
 
 #[test]
 fn what_cannot_be_is_refused_by_name() {
@@ -32,16 +30,11 @@ fn what_cannot_be_is_refused_by_name() {
     ];
     assert!(Relay::try_new(usual::<f64>()).is_ok());
     for (change, error) in cases {
-        let mut settings = usual();
-        change(&mut settings);
+        let settings = with(usual(), change);
         assert_eq!(Relay::try_new(settings).err(), Some(error));
         assert_eq!(Constant::<Relay<f64>>::try_new(settings).err(), Some(error));
     }
-    let levels = RelaySettings {
-        limits: Limits::try_new(-1.0, 1.0).unwrap(),
-        ..usual()
-    };
-    assert!(Relay::<f64>::try_new(levels).is_ok());
+    relay(|s| s.limits = range(-1.0, 1.0));
 }
 
 #[test]
@@ -63,31 +56,26 @@ fn the_rules_are_those_of_their_papers() {
 #[cfg(feature = "serde")]
 #[test]
 fn what_is_stored_is_checked_when_it_is_read() {
-    use super::plants::Plant;
-    use bowden::control::RelayState;
-
-    let relay = Relay::<f64>::try_new(usual()).unwrap();
+    let relay = relay::<f64>(|_| ());
     let cycles = ("\"cycles\":3", "\"cycles\":1");
-    crate::reads_back(&relay, &[cycles, ("agreement", "accord")]);
+    reads_back(&relay, &[cycles, ("agreement", "accord")]);
 
     let (mut state, mut plant) = (RelayState::new(), Plant::third_order());
     while state.is_running() {
-        crate::reads_back(&state, &[]);
+        reads_back(&state, &[]);
         let out = relay.step(&mut state, 0.02, plant.output());
         plant.run(out.command, 0.02);
     }
     // JSON has no NaN, but this overflows.
     let period = ("\"period\":", "\"period\":1e999,\"was\":");
-    crate::reads_back(&state, &[period]);
+    reads_back(&state, &[period]);
 }
 
 /// A state may be that of another machine: its command is held within the limits of this one.
 #[cfg(feature = "serde")]
 #[test]
 fn a_state_that_was_stored_commands_within_the_limits() {
-    use bowden::control::RelayState;
-
-    let relay = Relay::<f64>::try_new(usual()).unwrap();
+    let relay = relay::<f64>(|_| ());
     let text = serde_json::to_string(&RelayState::<f64>::new()).unwrap();
     let far = text.replacen("\"command\":0.0", "\"command\":1e9", 1);
     assert_ne!(far, text);
