@@ -193,11 +193,7 @@ impl Question {
             (self.drive_gain, "--drive-gain", "N·m/command unit", true),
         ] {
             if !(value.is_finite() && value >= 0.0 && (value > 0.0 || !above)) {
-                let from = if above {
-                    "positive"
-                } else {
-                    "zero or positive"
-                };
+                let from = if above { "positive" } else { "nonnegative" };
                 return Err(format!(
                     "{option} {value}: the value [{unit}] must be {from}"
                 ));
@@ -460,7 +456,7 @@ fn notes(plant: &Plant, adaptive: &AdaptiveDesign) -> Vec<String> {
     let least = plant.slopes.least;
     if least < 0.0 {
         notes.push(format!(
-            "the smallest slope is {least:.4}, so after a reversal the output moves against the input, and no margin covers this case; `bowden identify --invertible` fits a model with positive slopes"
+            "the smallest slope is {least:.4}, so after a reversal the output moves against the input, and no margin covers this case; `bowden identify --invertible` fits a model without negative slopes"
         ));
     }
     if plant.output().is_none() {
