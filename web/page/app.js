@@ -4,6 +4,7 @@ import { element } from "./dom.js";
 import { Cancelled, Engine } from "./engine.js";
 import { digits, preview } from "./plot.js";
 import { explore } from "./explore.js";
+import { control } from "./control.js";
 import { answer, report } from "./result.js";
 
 const at = (id) => document.getElementById(id);
@@ -12,7 +13,7 @@ const EXAMPLE = "built-in synthetic record (bowden generate --mode torque --effe
 const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "invertible"];
 
 // The files, the column roles that the user has chosen, and the last result.
-const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, turn: 0, answered: 0 };
+const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, designed: null, compared: null, turn: 0, answered: 0 };
 
 // ---- the user's options -------------------------------------------------------------------------
 
@@ -211,6 +212,7 @@ async function identify() {
     at("result").replaceChildren(...answer(found, "identify"));
     at("explore").replaceChildren(explore(found, shape));
     at("validated").replaceChildren();
+    at("control").replaceChildren(...control(found, steps));
     at("report").replaceChildren(report(found, "identify"));
     at("result-part").hidden = false;
     at("result-head").focus();
@@ -238,6 +240,14 @@ async function shape(parameters, input) {
   const answered = await engine.ask({ ask: "shape", parameters }, { bytes: input.slice().buffer });
   return new Float64Array(answered.files.eta.slice().buffer);
 }
+
+// What the controller part of the page needs.
+const steps = {
+  model: () => ({ name: "model.toml", bytes: state.result?.found.files["model.toml"] }),
+  ask: (request, options) => engine.ask(request, options),
+  stop: () => engine.cancel(),
+  keep: (what, answered) => (state[what] = answered),
+};
 
 async function validate(file) {
   const { found, choices: chosen } = state.result ?? {};

@@ -9,6 +9,8 @@ const LABELS = {
   "model.rs": "model.rs (Rust)",
   "model.h": "model.h (C)",
   "model.vector.csv": "test vector",
+  "gains.toml": "gains.toml",
+  "gains.rs": "gains.rs (Rust)",
   "trace.csv": "trace (CSV)",
   "result.json": "result (JSON)",
   "result.txt": "result (text)",
@@ -30,15 +32,15 @@ export function answer(found, kind) {
   ].filter(Boolean);
 }
 
-function download(name, bytes, kind) {
+export function download(name, bytes, kind) {
   const type = TYPES[name.split(".").pop()] ?? "text/plain";
-  const link = element("a", { class: "button", download: kind === "validate" ? `validate-${name}` : name }, LABELS[name]);
+  const link = element("a", { class: "button", download: kind === "identify" || name.startsWith("gains.") ? name : `${kind}-${name}` }, LABELS[name]);
   // The file stays in the tab; nothing is fetched.
   link.href = URL.createObjectURL(new Blob([bytes], { type }));
   return link;
 }
 
-function command(line) {
+export function command(line) {
   const copy = element("button", { type: "button" }, "Copy");
   copy.addEventListener("click", async () => {
     await navigator.clipboard?.writeText(line);

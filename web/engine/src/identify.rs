@@ -70,6 +70,7 @@ fn write(answer: &mut Answer, closed: &Closed, choices: &Choices) -> Result<(), 
     answer.put("headline", headline(&shown));
     answer.put("summary", &facts.sentence);
     answer.put("verdict", facts.verdict.name());
+    answer.put("mode", facts.record.mode.name());
     answer.put("notes", &facts.record.notes);
     answer.put("baseline_nrmse", facts.declared.nrmse.held_out);
     answer.put("nrmse", facts.shown().nrmse.held_out);

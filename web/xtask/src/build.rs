@@ -17,12 +17,13 @@ const INLINING: &str = "-inline-threshold=30 -inlinehint-threshold=150";
 const LARGEST: usize = 2_000_000;
 
 /// The modules of the page, ordered so that each uses only modules before it.
-const MODULES: [&str; 6] = [
+const MODULES: [&str; 7] = [
     "dom.js",
     "plot.js",
     "engine.js",
     "result.js",
     "explore.js",
+    "control.js",
     "app.js",
 ];
 
