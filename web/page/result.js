@@ -16,9 +16,19 @@ const LABELS = {
   "result.txt": "result (text)",
 };
 
+// "model-2.rs" is the second file's "model.rs".
+const common = (name) => name.replace(/^model-\d+/, "model");
+
+function labelOf(name) {
+  const place = /^model-(\d+)/.exec(name)?.[1];
+  const text = LABELS[common(name)];
+  if (!place) return text;
+  return text.startsWith("model") ? text.replace("model", `model-${place}`) : `${text} ${place}`;
+}
+
 export function answer(found, kind) {
   const [first, ...more] = found.headline ?? [];
-  const files = Object.keys(LABELS).filter((name) => found.files[name]);
+  const files = Object.keys(LABELS).flatMap((own) => Object.keys(found.files).filter((name) => common(name) === own));
   return [
     element("p", { class: "headline" }, first ?? ""),
     // The best term; the summary gives the rest in sentences.
@@ -34,7 +44,7 @@ export function answer(found, kind) {
 
 export function download(name, bytes, kind) {
   const type = TYPES[name.split(".").pop()] ?? "text/plain";
-  const link = element("a", { class: "button", download: kind === "identify" || name.startsWith("gains.") ? name : `${kind}-${name}` }, LABELS[name]);
+  const link = element("a", { class: "button", download: kind === "identify" || name.startsWith("gains.") ? name : `${kind}-${name}` }, labelOf(name));
   // The file stays in the tab; nothing is fetched.
   link.href = URL.createObjectURL(new Blob([bytes], { type }));
   return link;

@@ -17,6 +17,7 @@ pub(crate) fn identify(files: &[&File], choices: &Choices) -> String {
     option("--baseline", list(&choices.baseline));
     option("--max-terms", choices.max_terms.map(|n| n.to_string()));
     option("--time-limit", choices.time_limit.map(|s| s.to_string()));
+    option("--per-file", choices.per_file.then(|| "gains".to_owned()));
     if choices.invertible {
         words.push("--invertible".to_owned());
     }

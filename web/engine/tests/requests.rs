@@ -242,3 +242,41 @@ fn what_cannot_be_designed_or_compared_gets_one_line() {
         );
     }
 }
+
+#[test]
+fn separate_gains_give_a_model_for_each_file() {
+    let mut engine = Engine::default();
+    let names = ["a.csv", "b.csv"];
+    for (name, bad) in names.iter().zip([None, Some(1999)]) {
+        // The second file is one sample shorter: the same samples twice are refused.
+        let text = String::from_utf8(record("t,tau_i,tau_o", bad)).unwrap();
+        let bytes = text.split("19.99,oops").next().unwrap();
+        let add = json!({"ask": "add", "name": name});
+        let _ = ask(&mut engine, &add, bytes.as_bytes());
+    }
+    let choices = json!({"max_terms": 0, "per_file": true});
+    let identify = json!({"ask": "identify", "files": names, "choices": choices});
+    let answer = ask(&mut engine, &identify, &[]);
+    assert_eq!(
+        answer.get("command").unwrap(),
+        "bowden identify a.csv b.csv --max-terms 0 --per-file gains --report report.html",
+        "{:?}",
+        answer.get("refused")
+    );
+    assert_eq!(
+        answer.get("models").unwrap(),
+        &json!(["model-1.toml", "model-2.toml"])
+    );
+    for name in [
+        "model-1.toml",
+        "model-2.rs",
+        "model-2.h",
+        "model-2.vector.csv",
+    ] {
+        assert!(answer.file(name).is_some(), "{name}");
+    }
+    let one = json!({"ask": "identify", "files": ["a.csv"], "choices": choices});
+    let line = ask(&mut engine, &one, &[]);
+    let line = line.get("refused").unwrap();
+    assert_eq!(line, "--per-file gains needs more than one file");
+}

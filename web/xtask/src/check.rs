@@ -47,6 +47,9 @@ pub fn check() -> Done {
             .collect();
         pages::choose(&mut page, &files)?;
         identified(&mut page, &native, &names.join(" and "))?;
+        if files.len() > 1 {
+            separate_gains(&mut page, &native)?;
+        }
         page.value("bowden.state.files.splice(0)")?;
     }
     pages::choose(&mut page, &[native.folder().join("straight.csv")])?;
@@ -180,6 +183,29 @@ fn controls(page: &mut Browser, native: &Native) -> Done {
     answers_alike(page, native, ("compare", "compared"))?;
     let report = pages::file_of(page, "compared", "report.html")?;
     report_alike(&report, &native.report()?, "compare").map(drop)
+}
+
+/// Checks that separate gains for each file give the program's answer, and one model for each file.
+fn separate_gains(page: &mut Browser, native: &Native) -> Done {
+    page.value("document.getElementById('per_file').click()")?;
+    identified(page, native, "separate gains")?;
+    page.value("document.getElementById('per_file').click()")?;
+    let command = pages::command(page)?;
+    native.run(&format!("{command} --model-out model.toml"))?;
+    for name in ["model-1.toml", "model-2.toml"] {
+        let own = std::fs::read_to_string(native.folder().join(name))?;
+        let shown = pages::file(page, name)?;
+        if words(&own) != words(&shown) {
+            return Err(failed(format!(
+                "{name} of the page:\n{shown}\nand of the program:\n{own}"
+            )));
+        }
+    }
+    let choice = page.value("[...document.getElementById('model').options].length")?;
+    match choice == json!(2) {
+        true => Ok(()),
+        false => Err(failed(format!("{choice} models to choose from"))),
+    }
 }
 
 /// Checks that JSON and text of an answer are the program's.
