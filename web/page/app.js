@@ -4,15 +4,16 @@ import { element } from "./dom.js";
 import { Cancelled, Engine } from "./engine.js";
 import { digits, preview } from "./plot.js";
 import { explore } from "./explore.js";
+import { control } from "./control.js";
 import { answer, report } from "./result.js";
 
 const at = (id) => document.getElementById(id);
 const engine = new Engine();
 const EXAMPLE = "built-in synthetic record (bowden generate --mode torque --effect viscous --seed 7)";
-const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "invertible"];
+const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "per_file", "invertible"];
 
 // The files, the column roles that the user has chosen, and the last result.
-const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, turn: 0, answered: 0 };
+const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, designed: null, compared: null, turn: 0, answered: 0 };
 
 // ---- the user's options -------------------------------------------------------------------------
 
@@ -29,6 +30,7 @@ function choices() {
     }
   }
   if (state.parts) Object.assign(all, parts());
+  if (state.files.length < 2) delete all.per_file;
   return all;
 }
 
@@ -91,7 +93,7 @@ async function look() {
 
 // The reader's options, without those of the search.
 function reading(chosen) {
-  const { baseline, max_terms, invertible, ...rest } = chosen;
+  const { baseline, max_terms, invertible, per_file, ...rest } = chosen;
   return rest;
 }
 
@@ -120,6 +122,7 @@ function show() {
   const first = looks.find((own) => own.columns);
   const refused = looks.find((own) => own.refusal);
   at("columns-part").hidden = !first;
+  at("per-file-part").hidden = state.files.length < 2;
   at("refusal").replaceChildren(...(refused ? refusal(refused) : []));
   if (!first) return;
   guess(first);
@@ -207,10 +210,11 @@ async function identify() {
   try {
     const found = await engine.ask({ ask: "identify", files: files.map((file) => file.name), choices: chosen }, { files, told });
     state.result = { found, choices: chosen };
+    showModels(found, files);
     at("progress-part").hidden = true;
     at("result").replaceChildren(...answer(found, "identify"));
     at("explore").replaceChildren(explore(found, shape));
-    at("validated").replaceChildren();
+    begins();
     at("report").replaceChildren(report(found, "identify"));
     at("result-part").hidden = false;
     at("result-head").focus();
@@ -239,17 +243,43 @@ async function shape(parameters, input) {
   return new Float64Array(answered.files.eta.slice().buffer);
 }
 
+// With separate gains, each file has a model, and the user chooses one.
+function showModels(found, files) {
+  const record = (name) => files[Number(/-(\d+)\./.exec(name)?.[1] ?? 1) - 1]?.name;
+  at("model").replaceChildren(...found.models.map((name) => element("option", { value: name }, `${name}: ${record(name)}`)));
+  at("model-part").hidden = found.models.length < 2;
+}
+
+// Clears what belongs to another model.
+function begins() {
+  at("validated").replaceChildren();
+  at("control").replaceChildren(...control(state.result.found, steps));
+}
+
+function chosenModel() {
+  const name = at("model").value;
+  return { name, bytes: state.result?.found.files[name] };
+}
+
+// What the controller part of the page needs.
+const steps = {
+  model: chosenModel,
+  ask: (request, options) => engine.ask(request, options),
+  stop: () => engine.cancel(),
+  keep: (what, answered) => (state[what] = answered),
+};
+
 async function validate(file) {
   const { found, choices: chosen } = state.result ?? {};
-  const model = found?.files["model.toml"];
-  if (!model) {
+  const { name, bytes } = chosenModel();
+  if (!bytes) {
     at("validated").replaceChildren(element("p", { class: "refusal" }, `No model to validate: ${found?.no_model ?? ""}`));
     return;
   }
   at("validated").replaceChildren(element("p", { class: "note" }, "validating …"));
-  const { start, end, header_line, segment, names, baseline, max_terms, invertible, ...rest } = chosen;
+  const { start, end, header_line, segment, names, baseline, max_terms, invertible, per_file, ...rest } = chosen;
   try {
-    const held = await engine.ask({ ask: "validate", model: "model.toml", file: file.name, choices: rest }, { files: [file], bytes: model.slice().buffer });
+    const held = await engine.ask({ ask: "validate", model: name, file: file.name, choices: rest }, { files: [file], bytes: bytes.slice().buffer });
     state.validated = held;
     at("validated").replaceChildren(...answer(held, "validate"), element("details", {}, element("summary", {}, "Validation report"), report(held, "validate")));
   } catch (error) {
@@ -288,6 +318,7 @@ at("example").addEventListener("click", () => {
   begin();
 });
 at("identify").addEventListener("click", identify);
+at("model").addEventListener("change", begins);
 at("cancel").addEventListener("click", () => engine.cancel());
 for (const id of ["options", "mode"]) at(id).addEventListener("change", () => state.files.length && look());
 document.body.append(element("datalist", { id: "channel-names" }, ...["phi_p", "phi_d", "temperature", "load"].map((value) => element("option", { value }))));

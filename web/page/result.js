@@ -9,14 +9,26 @@ const LABELS = {
   "model.rs": "model.rs (Rust)",
   "model.h": "model.h (C)",
   "model.vector.csv": "test vector",
+  "gains.toml": "gains.toml",
+  "gains.rs": "gains.rs (Rust)",
   "trace.csv": "trace (CSV)",
   "result.json": "result (JSON)",
   "result.txt": "result (text)",
 };
 
+// "model-2.rs" is the second file's "model.rs".
+const common = (name) => name.replace(/^model-\d+/, "model");
+
+function labelOf(name) {
+  const place = /^model-(\d+)/.exec(name)?.[1];
+  const text = LABELS[common(name)];
+  if (!place) return text;
+  return text.startsWith("model") ? text.replace("model", `model-${place}`) : `${text} ${place}`;
+}
+
 export function answer(found, kind) {
   const [first, ...more] = found.headline ?? [];
-  const files = Object.keys(LABELS).filter((name) => found.files[name]);
+  const files = Object.keys(LABELS).flatMap((own) => Object.keys(found.files).filter((name) => common(name) === own));
   return [
     element("p", { class: "headline" }, first ?? ""),
     // The best term; the summary gives the rest in sentences.
@@ -30,15 +42,15 @@ export function answer(found, kind) {
   ].filter(Boolean);
 }
 
-function download(name, bytes, kind) {
+export function download(name, bytes, kind) {
   const type = TYPES[name.split(".").pop()] ?? "text/plain";
-  const link = element("a", { class: "button", download: kind === "validate" ? `validate-${name}` : name }, LABELS[name]);
+  const link = element("a", { class: "button", download: kind === "identify" || name.startsWith("gains.") ? name : `${kind}-${name}` }, labelOf(name));
   // The file stays in the tab; nothing is fetched.
   link.href = URL.createObjectURL(new Blob([bytes], { type }));
   return link;
 }
 
-function command(line) {
+export function command(line) {
   const copy = element("button", { type: "button" }, "Copy");
   copy.addEventListener("click", async () => {
     await navigator.clipboard?.writeText(line);

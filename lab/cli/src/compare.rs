@@ -167,6 +167,7 @@ impl Compare {
             seeds: self.seeds,
             effect: self.effect.as_deref(),
             traced: self.trace.is_some() || self.report.is_some(),
+            in_memory: &[],
         };
         let compared = compare(&question)?;
         let mut files = Vec::new();

@@ -6,8 +6,34 @@
 
 use super::error::RecordError;
 use super::limits::PIECES;
-use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
+
+/// UTF-16 with one order of its bytes.
+#[derive(Clone, Copy)]
+struct Utf16 {
+    name: &'static str,
+    mark: [u8; 2],
+    unit: fn([u8; 2]) -> u16,
+}
+
+const LITTLE: Utf16 = Utf16 {
+    name: "UTF-16LE",
+    mark: [0xff, 0xfe],
+    unit: u16::from_le_bytes,
+};
+
+const BIG: Utf16 = Utf16 {
+    name: "UTF-16BE",
+    mark: [0xfe, 0xff],
+    unit: u16::from_be_bytes,
+};
+
+/// The characters 0x80 to 0x9f of Windows-1252; the others are those of Latin-1, and U+0080 to
+/// U+009F stand for bytes that it does not define.
+const WINDOWS_1252: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
+    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
 
 /// The text of a record, after its byte-order mark, up to its last row; every line ends with `\n`,
 /// possibly after a `\r`.
@@ -27,7 +53,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded<'_>, RecordError> {
         ));
     }
     let (text, note) = match wide(bytes) {
-        Some((own, mark)) => (utf_16(&bytes[mark..], own)?, Some(own.name())),
+        Some((own, mark)) => (utf_16(&bytes[mark..], own)?, Some(own.name)),
         None => narrow(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))?,
     };
     Ok(Decoded {
@@ -43,13 +69,15 @@ pub(super) fn is_wide(bytes: &[u8]) -> bool {
 }
 
 /// Which UTF-16 it is, and the length of its mark.
-fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
-    let marked = Encoding::for_bom(bytes).filter(|(own, _)| [UTF_16LE, UTF_16BE].contains(own));
+fn wide(bytes: &[u8]) -> Option<(Utf16, usize)> {
+    let mut both = [LITTLE, BIG].into_iter();
+    let marked = both.find(|own| bytes.starts_with(&own.mark));
+    let marked = marked.map(|own| (own, own.mark.len()));
     marked.or_else(|| unmarked(bytes).map(|own| (own, 0)))
 }
 
 /// UTF-16 of a text that is mostly ASCII: every other byte is NUL.
-fn unmarked(bytes: &[u8]) -> Option<&'static Encoding> {
+fn unmarked(bytes: &[u8]) -> Option<Utf16> {
     let head = &bytes[..bytes.len().min(PIECES) & !1];
     let nul = |side: usize| {
         head.iter()
@@ -61,21 +89,29 @@ fn unmarked(bytes: &[u8]) -> Option<&'static Encoding> {
     let pairs = head.len() / 2;
     match (nul(0), nul(1)) {
         _ if pairs < 4 => None,
-        (0, high) if 10 * high >= 9 * pairs => Some(UTF_16LE),
-        (high, 0) if 10 * high >= 9 * pairs => Some(UTF_16BE),
+        (0, high) if 10 * high >= 9 * pairs => Some(LITTLE),
+        (high, 0) if 10 * high >= 9 * pairs => Some(BIG),
         _ => None,
     }
 }
 
-fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, RecordError> {
-    let (text, damaged) = own.decode_without_bom_handling(bytes);
+fn utf_16(bytes: &[u8], own: Utf16) -> Result<Cow<'static, str>, RecordError> {
+    let pairs = bytes.chunks_exact(2);
+    let half = pairs
+        .remainder()
+        .first()
+        .map(|_| char::REPLACEMENT_CHARACTER);
+    let mut damaged = half.is_some();
+    let units = pairs.map(|pair| (own.unit)([pair[0], pair[1]]));
+    let characters = char::decode_utf16(units).map(|read| {
+        damaged |= read.is_err();
+        read.unwrap_or(char::REPLACEMENT_CHARACTER)
+    });
+    let text: String = characters.chain(half).collect();
     let line_of = |text: &str| 1 + text.matches('\n').count();
     if damaged {
         let before = text.split('\u{fffd}').next().unwrap_or_default();
-        let message = format!(
-            "the file is damaged: a character is not valid {}",
-            own.name()
-        );
+        let message = format!("the file is damaged: a character is not valid {}", own.name);
         return Err(RecordError::at(line_of(before), message));
     }
     match text.find('\0') {
@@ -83,7 +119,7 @@ fn utf_16<'a>(bytes: &'a [u8], own: &'static Encoding) -> Result<Cow<'a, str>, R
             line_of(&text[..at]),
             "a character is NUL, so the file is binary; give CSV text",
         )),
-        None => Ok(text),
+        None => Ok(Cow::Owned(text)),
     }
 }
 
@@ -122,8 +158,12 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
             ),
         );
     }
-    let (text, _) = WINDOWS_1252.decode_without_bom_handling(bytes);
-    Ok((text, Some("Windows-1252 (Latin-1)")))
+    let character = |byte: &u8| match byte {
+        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
+        own => char::from(*own),
+    };
+    let text: String = bytes.iter().map(character).collect();
+    Ok((Cow::Owned(text), Some("Windows-1252 (Latin-1)")))
 }
 
 /// Ends every line with `\n`; rows of separators alone, which spreadsheets leave at the end,
@@ -179,6 +219,7 @@ mod tests {
         }
         let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
         assert_eq!(said(&latin), own("Windows-1252 (Latin-1)"));
+        assert_eq!(said(b"a\x80\x8a\x94\x9f\xa0\xff").0, "a€Š”Ÿ\u{a0}ÿ");
     }
 
     #[test]
@@ -201,6 +242,8 @@ mod tests {
             line(b"\xff\xfea\0\n\0\x00\xd8b\0").contains(":2: a character is not valid UTF-16LE")
         );
         assert!(line(b"\xff\xfea\0\n\0\0\0b\0").contains(":2: a character is NUL"));
+        // Half a character at the end.
+        assert!(line(b"\xff\xfea\0b\0c").contains(":1: a character is not valid UTF-16LE"));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::heading::{file_name, is_paper, lag_error, with_drive_gain};
 use super::lineup::{declared_feed, lineup};
 use super::own_rig;
 use super::setup::Setup;
+use super::setup_file::text_of_disk;
 use super::table::run_all;
 use super::trial::{Conditions, FROM, TRANSIENT};
 use bowden::model::Term;
@@ -66,6 +67,8 @@ pub struct Question<'a> {
     pub effect: Option<&'a str>,
     /// Whether to return the signals of the first trial.
     pub traced: bool,
+    /// Files in memory, by their paths; every other file is read from the disk.
+    pub in_memory: &'a [(&'a Path, &'a str)],
 }
 
 /// The answer.
@@ -219,15 +222,25 @@ fn own(setup: &mut Setup, question: &Question<'_>) -> Result<Option<Own>, String
     Ok(Some(own))
 }
 
+impl Question<'_> {
+    /// The text of a file.
+    fn text(&self, path: &Path) -> Result<String, String> {
+        match self.in_memory.iter().find(|(own, _)| *own == path) {
+            Some((_, text)) => Ok((*text).to_owned()),
+            None => text_of_disk(path),
+        }
+    }
+}
+
 /// Whether a file is a model by itself.
-fn is_model(path: Option<&Path>) -> bool {
-    let text = path.and_then(|path| std::fs::read_to_string(path).ok());
+fn is_model(question: &Question<'_>, path: Option<&Path>) -> bool {
+    let text = path.and_then(|path| question.text(path).ok());
     let table = text.and_then(|text| toml::from_str::<toml::Table>(&text).ok());
     table.is_some_and(|table| table.contains_key("schema"))
 }
 
-fn no_model_is_refused(path: &Path) -> Result<(), String> {
-    match is_model(Some(path)) {
+fn no_model_is_refused(question: &Question<'_>, path: &Path) -> Result<(), String> {
+    match is_model(question, Some(path)) {
         true => Ok(()),
         false => Err(format!(
             "{}: with --gains, give a model written by `bowden identify --model-out`",
@@ -241,10 +254,10 @@ fn no_model_is_refused(path: &Path) -> Result<(), String> {
 fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), String> {
     let Some(path) = question.gains else {
         let own = setup(question, question.setup)?;
-        return Ok((own, None, is_model(question.setup)));
+        return Ok((own, None, is_model(question, question.setup)));
     };
     let label = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
+    let text = question.text(path)?;
     let schema = toml::from_str::<toml::Table>(&text)
         .ok()
         .and_then(|table| Some(table.get("schema")?.as_str()?.to_owned()));
@@ -257,8 +270,8 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
             let Some(model) = question.setup else {
                 return Ok((gains, None, false));
             };
-            let given = Setup::read(model)?;
-            no_model_is_refused(model)?;
+            let given = Setup::parse(&question.text(model)?, &model.display().to_string())?;
+            no_model_is_refused(question, model)?;
             gains.model = given.model;
             Ok((gains, None, true))
         }
@@ -272,7 +285,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
             // What the gains were designed for is what they are tried with.
             let noise = question.noise.or(Some(gains.design.noise));
             let own = setup(&Question { noise, ..*question }, Some(model))?;
-            no_model_is_refused(model)?;
+            no_model_is_refused(question, model)?;
             Ok((own, Some(gains), true))
         }
     }
@@ -304,7 +317,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
             ));
         }
     }
-    let own = read(setup)?;
+    let own = setup.map_or_else(|| Ok(Setup::default()), Setup::read)?;
     match (setup, &own.model) {
         (Some(path), Some(_)) => Err(format!(
             "{}: this file is a model; these certificates need a file with gains, and with a table [rig] unless the rig is the reference rig. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees",
@@ -318,15 +331,11 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     }
 }
 
-fn read(path: Option<&Path>) -> Result<Setup, String> {
-    match path {
-        Some(path) => Setup::read(path),
-        None => Ok(Setup::default()),
-    }
-}
-
 fn setup(question: &Question<'_>, path: Option<&Path>) -> Result<Setup, String> {
-    let mut setup = read(path)?;
+    let mut setup = match path {
+        Some(path) => Setup::parse(&question.text(path)?, &path.display().to_string())?,
+        None => Setup::default(),
+    };
     // Through the paper's gains the experiment's noise hides what is gained.
     let quiet = question.effect.is_some() && path.is_none();
     if let Some(noise) = question.noise.or(quiet.then_some(QUIET)) {

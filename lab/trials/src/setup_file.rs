@@ -6,15 +6,18 @@ use super::lineup::Laws;
 use super::setup::Setup;
 use std::path::Path;
 
+/// The text of a file on the disk.
+pub(crate) fn text_of_disk(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
 impl Setup {
     /// Reads a file.
     ///
     /// # Errors
     /// A message with file, line, column and key.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let label = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|e| format!("{label}: {e}"))?;
-        Self::parse(&text, &label)
+        Self::parse(&text_of_disk(path)?, &path.display().to_string())
     }
 
     /// Reads a text; `label` is the name of the file.

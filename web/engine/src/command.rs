@@ -1,5 +1,6 @@
 //! The command line that gives the same answer.
 
+use crate::control::{Trials, Wanted};
 use crate::options::Choices;
 use crate::{File, EXAMPLE};
 use bowden_cli::quoted;
@@ -16,6 +17,7 @@ pub(crate) fn identify(files: &[&File], choices: &Choices) -> String {
     option("--baseline", list(&choices.baseline));
     option("--max-terms", choices.max_terms.map(|n| n.to_string()));
     option("--time-limit", choices.time_limit.map(|s| s.to_string()));
+    option("--per-file", choices.per_file.then(|| "gains".to_owned()));
     if choices.invertible {
         words.push("--invertible".to_owned());
     }
@@ -30,6 +32,58 @@ pub(crate) fn validate(model: &str, file: &File, choices: &Choices) -> String {
     words.extend(columns(choices));
     words.extend(["--report".to_owned(), "report.html".to_owned()]);
     line(&words)
+}
+
+/// `bowden design` with the model and the options.
+pub(crate) fn design(model: &str, wanted: &Wanted) -> String {
+    let mut words = vec!["bowden".to_owned(), "design".to_owned(), model.to_owned()];
+    words.extend(numbers([
+        ("--rate", Some(wanted.rate)),
+        ("--delay", Some(wanted.delay)),
+        ("--noise", wanted.noise),
+        ("--drive-gain", wanted.drive_gain),
+    ]));
+    words.extend(["--out".to_owned(), "gains.toml".to_owned()]);
+    line(&words)
+}
+
+/// `bowden compare` with the model, the gains and the options.
+pub(crate) fn compare(model: &str, gains: Option<&str>, trials: &Trials) -> String {
+    let mut words = vec!["bowden".to_owned(), "compare".to_owned()];
+    words.extend(["--model".to_owned(), model.to_owned()]);
+    words.extend(
+        gains
+            .into_iter()
+            .flat_map(|g| ["--gains".to_owned(), g.to_owned()]),
+    );
+    for (flag, is_set) in [("--varying", trials.varying), ("--gait", trials.gait)] {
+        words.extend(is_set.then(|| flag.to_owned()));
+    }
+    if let Some(seeds) = trials.seeds {
+        words.extend(["--seeds".to_owned(), seeds.to_string()]);
+    }
+    words.extend(numbers([
+        ("--seconds", trials.seconds),
+        ("--noise", trials.noise),
+        ("--drive-gain", trials.drive_gain),
+        ("--inertia", trials.inertia),
+        ("--damping", trials.damping),
+        ("--joint-inertia", trials.joint_inertia),
+        ("--joint-damping", trials.joint_damping),
+        ("--spring", trials.spring),
+        ("--delay", trials.delay.map(f64::from)),
+        ("--drive-lag", trials.drive_lag),
+        ("--sensor-lag", trials.sensor_lag),
+    ]));
+    words.extend(["--report".to_owned(), "report.html".to_owned()]);
+    line(&words)
+}
+
+/// The options that have a value.
+fn numbers<const N: usize>(all: [(&str, Option<f64>); N]) -> impl Iterator<Item = String> + '_ {
+    all.into_iter()
+        .filter_map(|(name, value)| Some([name.to_owned(), value?.to_string()]))
+        .flatten()
 }
 
 fn line(words: &[String]) -> String {

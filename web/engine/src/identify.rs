@@ -11,6 +11,9 @@ pub(crate) fn identify(
     choices: &Choices,
     tell: &dyn Fn(&str),
 ) -> Result<Answer, String> {
+    if choices.per_file && files.len() < 2 {
+        return Err("--per-file gains needs more than one file".to_owned());
+    }
     let meter = Meter::start();
     tell("reading");
     let asked = choices.asked()?;
@@ -21,7 +24,7 @@ pub(crate) fn identify(
     let (records, sources) = asked.read_together_in_memory(&bytes)?;
     let question = Close {
         asked,
-        own_gains: false,
+        own_gains: choices.per_file,
         invertible: choices.invertible,
         // The page writes the model files itself; a result may have no exported model.
         models: false,
@@ -70,6 +73,7 @@ fn write(answer: &mut Answer, closed: &Closed, choices: &Choices) -> Result<(), 
     answer.put("headline", headline(&shown));
     answer.put("summary", &facts.sentence);
     answer.put("verdict", facts.verdict.name());
+    answer.put("mode", facts.record.mode.name());
     answer.put("notes", &facts.record.notes);
     answer.put("baseline_nrmse", facts.declared.nrmse.held_out);
     answer.put("nrmse", facts.shown().nrmse.held_out);
@@ -80,35 +84,46 @@ fn write(answer: &mut Answer, closed: &Closed, choices: &Choices) -> Result<(), 
     if let Some(trace) = &closed.trace {
         file("trace.csv", trace.clone().into_bytes());
     }
-    match closed.models.first() {
-        Some(model) => {
-            if let Err(line) = model_files(model, &mut file) {
-                answer.put("no_model", line);
-            }
+    // With separate gains there is one model for each file, numbered as the program does.
+    let mut models = Vec::new();
+    let mut no_model = facts.hand_over.as_ref().err().cloned();
+    for (place, model) in closed.models.iter().enumerate() {
+        let name = match closed.models.len() {
+            1 => "model".to_owned(),
+            _ => format!("model-{}", place + 1),
+        };
+        match model_files(&name, model, &mut file) {
+            Ok(()) => models.push(format!("{name}.toml")),
+            Err(line) => no_model = Some(line),
         }
-        None => {
-            let reason = facts.hand_over.as_ref().err();
-            answer.put("no_model", reason);
-        }
+    }
+    answer.put("models", models);
+    if let Some(line) = no_model {
+        answer.put("no_model", line);
     }
     Ok(())
 }
 
 /// The model in its three forms, with its test vector. A form that cannot represent a part of the
 /// model is left out.
-fn model_files(model: &Handed, file: &mut impl FnMut(&str, Vec<u8>)) -> Result<(), String> {
+fn model_files(
+    name: &str,
+    model: &Handed,
+    file: &mut impl FnMut(&str, Vec<u8>),
+) -> Result<(), String> {
     let toml = model.file(Form::Toml)?;
     let header = std::str::from_utf8(&toml)
         .ok()
-        .and_then(|text| model_in_c(text, "model").ok());
-    file("model.toml", toml);
+        .and_then(|text| model_in_c(text, name).ok());
+    file(&format!("{name}.toml"), toml);
     if let Ok(source) = model.file(Form::Rust) {
-        file("model.rs", source);
+        file(&format!("{name}.rs"), source);
     }
     if let Some(header) = header {
-        file("model.h", header.into_bytes());
+        file(&format!("{name}.h"), header.into_bytes());
     }
-    file("model.vector.csv", model.vector()?.as_bytes().to_vec());
+    let vector = model.vector()?.as_bytes().to_vec();
+    file(&format!("{name}.vector.csv"), vector);
     Ok(())
 }
 

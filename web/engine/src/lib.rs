@@ -12,6 +12,7 @@
 mod abi;
 mod answer;
 mod command;
+mod control;
 mod identify;
 mod look;
 mod options;
@@ -20,6 +21,7 @@ mod validate;
 
 pub use answer::Answer;
 
+use control::{Trials, Wanted};
 use options::Choices;
 use serde::Deserialize;
 
@@ -71,6 +73,15 @@ enum Request {
         #[serde(default)]
         choices: Choices,
     },
+    /// Controller gains for a model, whose bytes follow.
+    Design { model: String, options: Wanted },
+    /// Controllers on the simulated rig, with a file of a model and one of gains for it.
+    Compare {
+        model: String,
+        gains: Option<String>,
+        #[serde(default)]
+        options: Trials,
+    },
 }
 
 impl Engine {
@@ -116,6 +127,15 @@ impl Engine {
                 file,
                 choices,
             } => validate::validate((&model, bytes), self.file(&file)?, &choices),
+            Request::Design { model, options } => control::design((&model, bytes), &options),
+            Request::Compare {
+                model,
+                gains,
+                options,
+            } => {
+                let gains = gains.map(|name| self.file(&name)).transpose()?;
+                control::compare(self.file(&model)?, gains, &options, tell)
+            }
         }
     }
 

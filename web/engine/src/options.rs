@@ -41,6 +41,8 @@ pub struct Choices {
     pub max_terms: Option<usize>,
     /// Time limit of the search \[s\].
     pub time_limit: Option<f64>,
+    /// Whether each file has separate gains.
+    pub per_file: bool,
     /// Whether the exported model must be invertible.
     pub invertible: bool,
 }

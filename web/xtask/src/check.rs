@@ -24,6 +24,7 @@ pub fn check() -> Done {
     pages::example(&mut page)?;
     identified(&mut page, &native, "the built-in record")?;
     takes_apart(&mut page)?;
+    controls(&mut page, &native)?;
     fits_each_width(&mut page)?;
     page.value("bowden.state.files.splice(0)")?;
 
@@ -46,6 +47,9 @@ pub fn check() -> Done {
             .collect();
         pages::choose(&mut page, &files)?;
         identified(&mut page, &native, &names.join(" and "))?;
+        if files.len() > 1 {
+            separate_gains(&mut page, &native)?;
+        }
         page.value("bowden.state.files.splice(0)")?;
     }
     pages::choose(&mut page, &[native.folder().join("straight.csv")])?;
@@ -78,20 +82,24 @@ fn identified(page: &mut Browser, native: &Native, what: &str) -> Done {
         what,
         &mut worst,
     )?;
-    let (own, other) = (pages::file(page, "report.html")?, native.report()?);
-    let is_same = if own == other {
-        "the same bytes"
-    } else {
-        "the same but for last digits"
-    };
-    let pieces = own.split('>').zip(other.split('>'));
-    if let Some((page, program)) = pieces.clone().find(|(a, b)| words(a) != words(b)) {
+    let report = pages::file(page, "report.html")?;
+    let is_same = report_alike(&report, &native.report()?, what)?;
+    println!("{what}: {seconds:.2} s, JSON within {worst:.0e}, report {is_same}\n  {command}");
+    Ok(())
+}
+
+/// Checks that a report has the words of the program's report; says how equal they are.
+fn report_alike(own: &str, other: &str, what: &str) -> Result<&'static str, Ended> {
+    let mut pieces = own.split('>').zip(other.split('>'));
+    if let Some((page, program)) = pieces.find(|(a, b)| words(a) != words(b)) {
         return Err(failed(format!(
             "{what}: the report has {page} where the program's has {program}"
         )));
     }
-    println!("{what}: {seconds:.2} s, JSON within {worst:.0e}, report {is_same}\n  {command}");
-    Ok(())
+    Ok(match own == other {
+        true => "the same bytes",
+        false => "the same but for last digits",
+    })
 }
 
 /// The text of a page without its numbers.
@@ -154,6 +162,72 @@ fn validates(page: &mut Browser, native: &Native) -> Done {
     Ok(())
 }
 
+/// Checks that gains for the model, and controllers with these gains on the simulated rig, get the
+/// program's answers.
+fn controls(page: &mut Browser, native: &Native) -> Done {
+    let model = pages::file(page, "model.toml")?;
+    native.write("model.toml", model.as_bytes())?;
+    let fields = [("rate", "1000"), ("delay", "0.004"), ("noise", "0.05")];
+    pages::send(page, "design", &fields, "designed")?;
+    answers_alike(page, native, ("design", "designed"))?;
+    let gains = pages::file_of(page, "designed", "gains.toml")?;
+    let own = std::fs::read_to_string(native.folder().join("gains.toml"))?;
+    if words(&gains) != words(&own) {
+        return Err(failed(format!(
+            "gains.toml of the page:\n{gains}\nand of the program:\n{own}"
+        )));
+    }
+    native.write("gains.toml", gains.as_bytes())?;
+    let fields = [("seconds", "10"), ("seeds", "2")];
+    pages::send(page, "compare", &fields, "compared")?;
+    answers_alike(page, native, ("compare", "compared"))?;
+    let report = pages::file_of(page, "compared", "report.html")?;
+    report_alike(&report, &native.report()?, "compare").map(drop)
+}
+
+/// Checks that separate gains for each file give the program's answer, and one model for each file.
+fn separate_gains(page: &mut Browser, native: &Native) -> Done {
+    page.value("document.getElementById('per_file').click()")?;
+    identified(page, native, "separate gains")?;
+    page.value("document.getElementById('per_file').click()")?;
+    let command = pages::command(page)?;
+    native.run(&format!("{command} --model-out model.toml"))?;
+    for name in ["model-1.toml", "model-2.toml"] {
+        let own = std::fs::read_to_string(native.folder().join(name))?;
+        let shown = pages::file(page, name)?;
+        if words(&own) != words(&shown) {
+            return Err(failed(format!(
+                "{name} of the page:\n{shown}\nand of the program:\n{own}"
+            )));
+        }
+    }
+    let choice = page.value("[...document.getElementById('model').options].length")?;
+    match choice == json!(2) {
+        true => Ok(()),
+        false => Err(failed(format!("{choice} models to choose from"))),
+    }
+}
+
+/// Checks that JSON and text of an answer are the program's.
+fn answers_alike(page: &mut Browser, native: &Native, (what, answer): (&str, &str)) -> Done {
+    let command = page.value(&format!("bowden.state.{answer}.command"))?;
+    let command = command.as_str().unwrap_or_default();
+    let own: Value = serde_json::from_str(&pages::file_of(page, answer, "result.json")?)?;
+    let mut worst = 0.0;
+    same(&native.run(command)?, &own, what, &mut worst)?;
+    // The page wraps lines; a pipe does not.
+    let flat = |text: &str| -> String { text.split_whitespace().collect() };
+    let shown = pages::file_of(page, answer, "result.txt")?;
+    let program = native.text(command)?;
+    if words(&flat(&shown)) != words(&flat(&program)) {
+        return Err(failed(format!(
+            "{what}: the page says\n{shown}\nand the program\n{program}"
+        )));
+    }
+    println!("{what}: JSON within {worst:.0e}, the same text\n  {command}");
+    Ok(())
+}
+
 /// Checks that the error rises without a part, and returns to its value with the part.
 fn takes_apart(page: &mut Browser) -> Done {
     let error = "Number(/held-out ([0-9.]+)/.exec(document.querySelector('.error').innerText)[1])";
@@ -181,7 +255,7 @@ fn fits_each_width(page: &mut Browser) -> Done {
     for width in WIDTHS {
         page.resize(width, 900)?;
         let wide = page.value("document.documentElement.scrollWidth")?;
-        let inner = page.value("document.querySelector('iframe.report').contentDocument.documentElement.scrollWidth <= document.querySelector('iframe.report').clientWidth")?;
+        let inner = page.value("[...document.querySelectorAll('iframe.report')].every((own) => own.contentDocument.documentElement.scrollWidth <= own.clientWidth)")?;
         if wide.as_u64() > Some(u64::from(width)) || inner != json!(true) {
             return Err(failed(format!(
                 "{width} pixels: the page has {wide}; report fits: {inner}"

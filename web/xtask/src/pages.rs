@@ -62,6 +62,41 @@ pub fn identify(page: &mut Browser) -> Result<f64, Ended> {
     }
 }
 
+/// Fills in a form, sends it, and waits for the answer in the state of the page.
+pub fn send(
+    page: &mut Browser,
+    form: &str,
+    fields: &[(&str, &str)],
+    answer: &str,
+) -> Result<(), Ended> {
+    for (name, value) in fields {
+        page.value(&format!(
+            "document.getElementById('{form}').elements['{name}'].value = '{value}'"
+        ))?;
+    }
+    page.value(&format!("bowden.state.{answer} = null"))?;
+    page.value(&format!(
+        "document.getElementById('{form}').requestSubmit()"
+    ))?;
+    page.until(&format!(
+        "bowden.state.{answer} !== null || document.querySelector('#{form}-answer .refusal') !== null"
+    ))?;
+    let refused = page.value(&format!(
+        "document.querySelector('#{form}-answer .refusal')?.innerText ?? ''"
+    ))?;
+    match refused.as_str() {
+        Some("") => Ok(()),
+        _ => Err(failed(format!("{form}: {refused}"))),
+    }
+}
+
+/// A file of an answer in the state of the page, as text.
+pub fn file_of(page: &mut Browser, answer: &str, name: &str) -> Result<String, Ended> {
+    let script = format!("new TextDecoder().decode(bowden.state.{answer}.files['{name}'])");
+    let text = page.value(&script)?;
+    Ok(text.as_str().unwrap_or_default().to_owned())
+}
+
 /// The command line of the last result.
 pub fn command(page: &mut Browser) -> Result<String, Ended> {
     let line = page.value("bowden.state.result.found.command")?;
