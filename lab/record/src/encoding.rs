@@ -238,12 +238,12 @@ mod tests {
         assert!(line(b"a\n\xb5\x02").contains(":2: byte 3 (0x02) is not valid in"));
         assert!(line(b"a\n\x81").contains(":2: byte 2 (0x81) is not valid in"));
         // A surrogate without its other half.
-        assert!(
-            line(b"\xff\xfea\0\n\0\x00\xd8b\0").contains(":2: a character is not valid UTF-16LE")
-        );
+        assert!(line(b"\xff\xfea\0\n\0\x00\xd8b\0")
+            .contains(":2: the file is damaged: a character is not valid UTF-16LE"));
         assert!(line(b"\xff\xfea\0\n\0\0\0b\0").contains(":2: a character is NUL"));
         // Half a character at the end.
-        assert!(line(b"\xff\xfea\0b\0c").contains(":1: a character is not valid UTF-16LE"));
+        assert!(line(b"\xff\xfea\0b\0c")
+            .contains(":1: the file is damaged: a character is not valid UTF-16LE"));
     }
 
     #[test]
