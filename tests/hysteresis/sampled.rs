@@ -1,5 +1,5 @@
 //! On a sampled motion the step in bounded time differs from the one that splits by no more than
-//! the README says, and grows with the square of the input's change between two samples.
+//! docs/reference/model-files.md says, and grows with the square of the input's change between two samples.
 
 use super::*;
 use std::{fs, path::Path};
@@ -62,7 +62,7 @@ fn difference(n: f64, sigma: f64, path: f64) -> Vec<[f64; 2]> {
     all
 }
 
-/// What the README, docs/reference/model-files.md and capi/README.md say, for a sigma up to 12.
+/// What docs/reference/model-files.md and capi/README.md say, for a sigma up to 12.
 fn stated(sigma: f64, path: f64) -> f64 {
     (0.5 + 0.2 * sigma) * path * path + 6e-5
 }
@@ -89,14 +89,10 @@ fn single_precision_differs_by_no_more_than_the_docs_say() {
     let share = largest_share(98.36);
     assert!((2.0..=4.0).contains(&share), "{share}");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    // What is packaged has the README alone.
+    // A package has neither page.
     let packaged = !root.join("capi").exists();
-    let files = [
-        "README.md",
-        "docs/reference/model-files.md",
-        "capi/README.md",
-    ];
-    for file in &files[..if packaged { 1 } else { 3 }] {
+    let files = ["docs/reference/model-files.md", "capi/README.md"];
+    for file in &files[..if packaged { 0 } else { 2 }] {
         let text = fs::read_to_string(root.join(file)).unwrap_or_default();
         let states = text.contains("(0.5 + 0.2·sigma)·(rho·|du|)² + 6e-5");
         assert!(states, "{file}");

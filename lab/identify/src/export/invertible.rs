@@ -133,7 +133,7 @@ fn unproved(file: &ModelFile) -> Option<String> {
     let n = three_digits(t.n);
     let has_room = ABOVE * t.sigma <= bound(t.gain, t.kappa_eta, t.rho);
     Some(match t.n <= MEASURED_N || has_room {
-        true => format!("for n = {n}, tests but no proof show that the f32 step has one input for each output"),
+        true => format!("for n = {n}, tests show one input for each output of the f32 step, but this is not proved"),
         false => format!("for n = {n} and sigma {} close to its bound, the f32 step may have more than one input for an output", three_digits(t.sigma)),
     })
 }
@@ -299,9 +299,9 @@ mod tests {
     fn what_is_not_proved_of_an_inverse_is_said() {
         let said = |n, sigma| caution(&file("torque", 7.0, sigma, n)).unwrap_or_default();
         assert_eq!(said(4.0, 0.7), "");
-        assert!(said(4.1, 0.7).contains("n = 4.10 it is tested, but not proved,"));
-        assert!(said(10.0, 0.7).contains("it is tested, but not proved,"));
-        assert!(said(20.0, 0.51).contains("it is tested, but not proved,"));
+        assert!(said(4.1, 0.7).contains("n = 4.10, tests show one input for each output"));
+        assert!(said(10.0, 0.7).contains("but this is not proved"));
+        assert!(said(20.0, 0.51).contains("but this is not proved"));
         assert!(said(20.0, 0.52).contains("may have more than one input"));
         // A hysteresis that helps its gain needs no slope.
         assert_eq!(caution(&file("torque", -7.0, 0.7, 20.0)), None);

@@ -36,7 +36,7 @@ fn stamps_without_a_unit_that_cannot_be_seconds_are_refused() {
     for text in [of(1, 0), of(2, 0), of(100, 0), of(2, 1_772_373_801)] {
         let record = accepted(text);
         assert!(
-            record.notes[0].contains("is the unit ms?"),
+            record.notes[0].contains("set --time 't [ms]' if the unit is ms"),
             "{:?}",
             record.notes
         );

@@ -265,7 +265,7 @@ fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     );
     let lost: Vec<String> = rows().iter().map(|row| row[..4].to_owned()).collect();
     let line = refusal(csv("t,x,f", &lost), &Options::default());
-    assert!(line.starts_with("r.csv:2: 1 cells"), "{line}");
+    assert!(line.starts_with("r.csv:2: the row has 1 cells"), "{line}");
 }
 
 #[test]

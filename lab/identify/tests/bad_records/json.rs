@@ -28,7 +28,7 @@ fn a_fault_of_json_is_named_with_its_record() {
         records(move |i, own| if i == at { own.replace(from, to) } else { own })
     };
     let drop = "--drop-bad drops such rows";
-    let empty = format!("r.csv:57: column `x`: the cell is empty, but must be a number; {drop}");
+    let empty = format!("r.csv:57: column `x`: the cell is empty, but it must be a number; {drop}");
     refused(spoilt(56, "\"x\": ", "\"x\": null, \"old\": "), &empty);
     refused(spoilt(56, "\"x\": ", "\"x\": NaN, \"old\": "), &empty);
     refused(

@@ -297,18 +297,18 @@ fn a_row_that_does_not_fit_the_header_is_refused() {
 #[test]
 fn a_line_of_any_length_gets_one_short_line() {
     let length = 16 << 20;
-    let limit = "at most 65536 are read";
+    let limit = "but at most 65536 are allowed";
     // As a header, as a row, of one cell, of many, of letters of two bytes, of blanks inside.
     for pattern in ["1", "1,", "é", "\",", "x "] {
         let long = pattern.repeat(length / pattern.len());
         let bytes = long.trim_end().len();
         refused(
             &long,
-            &format!("r.csv:1: the line has {bytes} bytes; {limit}"),
+            &format!("r.csv:1: the line has {bytes} bytes, {limit}"),
         );
         refused(
             format!("t,x,f\n0,1,2\n{long}\n0.02,1,2\n"),
-            &format!("r.csv:3: the line has {} bytes; {limit}", long.len()),
+            &format!("r.csv:3: the line has {} bytes, {limit}", long.len()),
         );
     }
 }

@@ -304,7 +304,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             }
             Json::List(values) => {
                 let message = format!(
-                    "the column has {} cells, but there are {} names",
+                    "the row has {} cells, but there are {} names",
                     values.len(),
                     own.names.len()
                 );
