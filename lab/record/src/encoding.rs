@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn the_encoding_is_recognised_with_and_without_a_mark() {
         let text = "t;Weg [µm];Kraft ü\n0;1;2";
-        let own = |note: &str| (text.to_owned(), Some(format!("the text is {note}")));
+        let own = |note: &str| (text.to_owned(), Some(format!("text encoding: {note}")));
         assert_eq!(said(text.as_bytes()), (text.to_owned(), None));
         assert_eq!(
             said(&[b"\xef\xbb\xbf", text.as_bytes()].concat()),
@@ -234,9 +234,9 @@ mod tests {
                 .collect::<Vec<_>>()
                 .as_slice()
         )
-        .contains(":2: byte 4 (0xB5) is not UTF-8, but characters before it are"));
-        assert!(line(b"a\n\xb5\x02").contains(":2: byte 3 (0x02) is not valid in"));
-        assert!(line(b"a\n\x81").contains(":2: byte 2 (0x81) is not valid in"));
+        .contains(":2: byte 4 (0xB5) is not UTF-8, unlike earlier characters"));
+        assert!(line(b"a\n\xb5\x02").contains(":2: byte 3 (0x02) is invalid in"));
+        assert!(line(b"a\n\x81").contains(":2: byte 2 (0x81) is invalid in"));
         // A surrogate without its other half.
         assert!(line(b"\xff\xfea\0\n\0\x00\xd8b\0")
             .contains(":2: the file is damaged: a character is not valid UTF-16LE"));

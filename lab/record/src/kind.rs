@@ -180,7 +180,7 @@ mod tests {
             let line = of(magic).unwrap_err().to_string();
             assert_eq!(
                 line,
-                format!(": is {what}, which bowden does not read; {instead}")
+                format!(": the file is {what}, which bowden does not read; {instead}")
             );
         }
         let line = |bytes: &[u8]| of(bytes).unwrap_err().to_string();

@@ -347,7 +347,7 @@ mod tests {
         let error = rows.read().err().unwrap();
         assert_eq!(
             error.message(),
-            "the line has 131072 bytes; at most 65536 are read"
+            "the line has 131072 bytes, but at most 65536 are allowed"
         );
     }
 }

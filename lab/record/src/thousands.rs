@@ -118,7 +118,7 @@ mod tests {
         }
         assert_eq!(
             check(&["900", "1,197"]).unwrap_err(),
-            ":3: column `f`: `1,197` may be 1.197 or 1197, next to `900` without a comma in line 2; \
+            ":3: column `f`: `1,197` may mean 1.197 or 1197, because `900` in line 2 has no comma; \
              write thousands without a separator, or the same number of decimals in every cell"
         );
     }

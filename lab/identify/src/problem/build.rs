@@ -97,7 +97,7 @@ impl Prepared {
             .find(|(_, own)| **own > RATES_APART * step)
         {
             return Err(named(record, format!(
-                "sampled at {:.6} Hz, but another file is sampled at {:.6} Hz; the rates may differ by at most a factor of {RATES_APART}",
+                "the file is sampled at {:.6} Hz, but another file is sampled at {:.6} Hz; the rates may differ by at most a factor of {RATES_APART}",
                 1.0 / own,
                 1.0 / step
             )));

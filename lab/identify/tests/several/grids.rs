@@ -147,5 +147,8 @@ fn rates_too_far_apart_are_refused_by_name() {
     let files = Files::new(&[fast, slow]);
     let line =
         Prepared::joined(&files.records, Preparation::default(), HeldOut::Trailing).unwrap_err();
-    assert!(line.starts_with("1.csv: has 50"), "{line}");
+    assert!(
+        line.starts_with("1.csv: the file is sampled at 50.000000 Hz"),
+        "{line}"
+    );
 }

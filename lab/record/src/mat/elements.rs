@@ -347,7 +347,7 @@ mod tests {
                 .err()
                 .map(|e| e.message().to_owned()),
             Some(
-                "no vector of real numbers among the variables `out` (an object: timeseries); each column must be one vector, alone or as a field of a structure; only MATLAB can read its objects (tables, time series, outputs of Simulink): extract their vectors, as in `t = out.tout; save('r.mat', 't', …)`"
+                "no vector of real numbers among the variables `out` (an object: timeseries); each column must be one vector, on its own or as a field of a structure; only MATLAB can read its objects (tables, time series, Simulink outputs); extract the vectors, as in `t = out.tout; save('r.mat', 't', …)`"
                     .to_owned()
             )
         );
