@@ -38,16 +38,16 @@ fn the_help_names_generate_and_not_record() {
 fn with_a_file_the_true_values_are_printed_and_nothing_else() {
     let folder = Folder::new();
     let made = |effects: &str| {
-        let command = format!("generate {effects} --seed 7 --out made.csv");
+        let command = format!("generate --seed 7{effects} --out made.csv");
         let output = bowden_in(&folder, &args(&command));
         assert!(output.status.success(), "{output:?}");
         String::from_utf8(output.stdout).unwrap()
     };
     assert_eq!(
-        made("--effect viscous"),
+        made(" --effect viscous"),
         "viscous@phi_p: gain -0.2623, rms 0.15\n"
     );
-    let two = made("--effect lag --effect stribeck@phi_d:2");
+    let two = made(" --effect lag --effect stribeck@phi_d:2");
     let (first, second) = two.split_once('\n').unwrap();
     assert!(first.starts_with("lag: time [s] 0.01187,"), "{two}");
     assert!(second.starts_with("stribeck@phi_d: gain -"), "{two}");
