@@ -237,5 +237,5 @@ fn a_time_with_a_mark_before_its_name_is_read() {
         &Options::default(),
     )
     .unwrap_err();
-    assert!(line.to_string().contains("is the unit ns?"), "{line}");
+    assert!(line.to_string().contains("if the unit is ns"), "{line}");
 }
