@@ -83,7 +83,7 @@ fn a_gain_that_reads_the_input_moves_both_slopes_and_a_delay_adds_to_the_delay()
     assert!(
         told.notes
             .iter()
-            .any(|n| n.contains("exclude") && n.contains("rate")),
+            .any(|n| n.contains("do not include") && n.contains("rate")),
         "{told:?}"
     );
 }
