@@ -19,11 +19,11 @@ const TRIALS = [
 
 const RIG = [
   ["drive_gain", "Torque per command unit [N·m]", { placeholder: "from the gains, or 0.6" }],
-  ["inertia", "Inertia of motor and pulley [kg·m²]", { placeholder: "0.2" }],
-  ["damping", "Friction of motor and pulley [N·m·s/rad]", { placeholder: "2.7" }],
+  ["motor_inertia", "Inertia of motor and pulley [kg·m²]", { placeholder: "0.2" }],
+  ["motor_damping", "Friction of motor and pulley [N·m·s/rad]", { placeholder: "2.7" }],
   ["joint_inertia", "Inertia of the joint [kg·m²]", { placeholder: "0.004" }],
   ["joint_damping", "Damping of the joint [N·m·s/rad]", { placeholder: "0.5" }],
-  ["spring", "Spring at the joint [N·m/rad]", { placeholder: "150" }],
+  ["load_stiffness", "Spring at the joint [N·m/rad]", { placeholder: "150" }],
   ["delay", "Delay of the drive [samples]", { placeholder: "1", max: 8, step: 1 }],
   ["drive_lag", "Time constant of the drive [s]", { placeholder: "0.0005" }],
   ["sensor_lag", "Time constant of the torque sensors [s]", { placeholder: "0.001" }],
@@ -50,7 +50,8 @@ export function control(found, { model, ask, stop, keep }) {
     keep("designed", answered);
     return answered;
   }, () => {}, fields(GAINS));
-  const compare = task("compare", "Compare", async ({ gains: chosen, ...options }, told) => {
+  const compare = task("compare", "Compare", async ({ gains: chosen, noise, varying, gait, seconds, seeds, ...rig }, told) => {
+    const options = { noise, varying, gait, seconds, seeds, rig };
     const files = [held(model().name, model().bytes)];
     if (chosen === "own") files.push(held("gains.toml", gains));
     const answered = await ask({ ask: "compare", model: files[0].name, gains: files[1]?.name, options }, { files, told });

@@ -6,7 +6,7 @@ use crate::view::compare::{json, text, trace};
 use crate::view::Width;
 use bowden_lab::facts::Source;
 use bowden_page::Compare as Page;
-use bowden_trials::facts::{compare, Question, RigChanges};
+use bowden_trials::facts::{compare, other_configuration, Question, RigChanges};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -26,10 +26,10 @@ pub struct Compare {
     #[arg(long, conflicts_with = "effect")]
     gait: bool,
     /// Length of a trial [s].
-    #[arg(long, default_value_t = 60.0, value_name = "S")]
+    #[arg(long, default_value_t = Question::default().seconds, value_name = "S")]
     seconds: f64,
     /// Number of trials, each with its own seed.
-    #[arg(long, default_value_t = 6, value_name = "K")]
+    #[arg(long, default_value_t = Question::default().seeds, value_name = "K")]
     seeds: u64,
     /// Add an effect that the baseline model lacks, identify it on the bench, and feed it forward.
     /// STRENGTH is in N·m rms.
@@ -96,35 +96,6 @@ struct RigOptions {
 }
 
 impl RigOptions {
-    /// An error names the option with a number that is invalid for a rig.
-    fn check(&self) -> Result<(), Failure> {
-        let positive = [
-            ("--drive-gain", self.drive_gain),
-            ("--inertia", self.inertia),
-            ("--joint-inertia", self.joint_inertia),
-            ("--spring", self.spring),
-            ("--drive-lag", self.drive_lag),
-            ("--sensor-lag", self.sensor_lag),
-        ];
-        let not_negative = [
-            ("--damping", self.damping),
-            ("--joint-damping", self.joint_damping),
-        ];
-        for (option, value) in positive {
-            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
-                return Err(format!(
-                    "{option} {value} is out of range; it must be positive"
-                ));
-            }
-        }
-        for (option, value) in not_negative {
-            if let Some(value) = value.filter(|v| !(v.is_finite() && *v >= 0.0)) {
-                return Err(format!("{option} {value} is out of range (0 or more)"));
-            }
-        }
-        Ok(())
-    }
-
     fn changes(&self) -> RigChanges {
         RigChanges {
             drive_gain: self.drive_gain,
@@ -142,7 +113,6 @@ impl RigOptions {
 
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
-        self.check()?;
         let given = [self.model.as_deref(), self.gains.as_deref()];
         let read: Vec<&Path> = given.into_iter().flatten().collect();
         let outputs = [("--report", &self.report), ("--trace", &self.trace)];
@@ -167,22 +137,13 @@ impl Compare {
             seeds: self.seeds,
             effect: self.effect.as_deref(),
             traced: self.trace.is_some() || self.report.is_some(),
-            in_memory: &[],
+            ..Question::default()
         };
         let compared = compare(&question)?;
         let mut files = Vec::new();
         if let Some(path) = &self.report {
             let mut both = vec![compared.clone()];
-            // The paper has each law with the conduit at rest (Figure 7) and moved (Figure 8).
-            if self.effect.is_none() {
-                let varying = !compared.heading.varying;
-                let other = compare(&Question {
-                    varying,
-                    ..question
-                })?;
-                // A setup may move the conduit by itself.
-                both.extend((other.heading.varying == varying).then_some(other));
-            }
+            both.extend(other_configuration(&question, &compared)?);
             let page = Page { compared: &both };
             files.push((path.clone(), page.page(&provenance(sources)).into_bytes()));
         }
@@ -195,21 +156,5 @@ impl Compare {
             false => text(&compared, Width::of_stdout(), self.verbose),
         };
         super::say(out.trim_end())
-    }
-
-    fn check(&self) -> Result<(), Failure> {
-        if !(self.seconds.is_finite() && (8.0..=3600.0).contains(&self.seconds)) {
-            return Err(format!(
-                "--seconds {} is out of range (8 to 3600)",
-                self.seconds
-            ));
-        }
-        if !(1..=1000).contains(&self.seeds) {
-            return Err(format!(
-                "--seeds {} is out of range (1 to 1000)",
-                self.seeds
-            ));
-        }
-        self.rig.check()
     }
 }

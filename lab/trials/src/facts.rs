@@ -7,7 +7,6 @@ use super::heading::{file_name, is_paper, lag_error, with_drive_gain};
 use super::lineup::{declared_feed, lineup};
 use super::own_rig;
 use super::setup::Setup;
-use super::setup_file::text_of_disk;
 use super::table::run_all;
 use super::trial::{Conditions, FROM, TRANSIENT};
 use bowden::model::Term;
@@ -29,6 +28,7 @@ pub use super::limited::AtLimit;
 pub use super::lineup::knows;
 pub use super::own_rig::RigChanges;
 pub use super::proof::{coq, gappa, prove, Proof, Sides};
+pub use super::question::Question;
 pub use super::table::{smallest_error, told_of_limits, Line, Spread};
 pub use super::tolerance::Tolerance;
 pub use super::trial::Row;
@@ -40,36 +40,6 @@ pub type Estimate = bowden::control::Estimator<f64>;
 
 /// Noise with which the gain of a found effect can be seen \[N·m rms\].
 const QUIET: f64 = 0.02;
-
-/// What is asked.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Question<'a> {
-    /// A model for the feed-forward, whose transmission the rig also has with `gains` or `rig`; or
-    /// gains, rig and model in one file. Default: the paper's gains and the reference rig.
-    pub setup: Option<&'a Path>,
-    /// Gains from `bowden design`, which need the model in `setup`; or a file in the form of
-    /// `setup`.
-    pub gains: Option<&'a Path>,
-    /// Other numbers of the rig. The drive gain defaults to that of `gains`, if they are from
-    /// `bowden design`.
-    pub rig: RigChanges,
-    /// White noise of the torque sensors \[N·m rms\]; default: that of the setup.
-    pub noise: Option<f64>,
-    /// Whether the conduit moves.
-    pub varying: bool,
-    /// Length of a trial \[s\].
-    pub seconds: f64,
-    /// Number of trials, each with its own seed.
-    pub seeds: u64,
-    /// Whether the reference is a gait instead of the paper's.
-    pub gait: bool,
-    /// The undeclared effect, if there is one.
-    pub effect: Option<&'a str>,
-    /// Whether to return the signals of the first trial.
-    pub traced: bool,
-    /// Files in memory, by their paths; every other file is read from the disk.
-    pub in_memory: &'a [(&'a Path, &'a str)],
-}
 
 /// The answer.
 #[derive(Debug, Clone)]
@@ -125,8 +95,10 @@ pub struct OverSeeds {
 /// Runs the trials.
 ///
 /// # Errors
-/// A message if the setup cannot be read, a law is refused, or no model is found.
+/// A message if an option is out of range, the setup cannot be read, a law is refused, or no model
+/// is found.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
+    question.check()?;
     let (mut setup, gains, is_model) = inputs(question)?;
     let own_setup = match (&gains, is_model) {
         (Some(_), _) => None,
@@ -201,6 +173,27 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     Ok(Compared { heading, results })
 }
 
+/// The same comparison with the conduit moved instead of at rest, or at rest instead of moved: the
+/// paper has each law in both (Figures 7 and 8). `None` with an effect, and with a setup that moves
+/// the conduit itself.
+///
+/// # Errors
+/// The same as [`compare`].
+pub fn other_configuration(
+    question: &Question<'_>,
+    compared: &Compared,
+) -> Result<Option<Compared>, String> {
+    if question.effect.is_some() {
+        return Ok(None);
+    }
+    let varying = !compared.heading.varying;
+    let other = compare(&Question {
+        varying,
+        ..*question
+    })?;
+    Ok((other.heading.varying == varying).then_some(other))
+}
+
 /// What the rig has of the user's own model.
 struct Own {
     effects: Vec<Term<f64>>,
@@ -220,16 +213,6 @@ fn own(setup: &mut Setup, question: &Question<'_>) -> Result<Option<Own>, String
     };
     setup.rig = own_rig::with_transmission(&setup.rig, &cable);
     Ok(Some(own))
-}
-
-impl Question<'_> {
-    /// The text of a file.
-    fn text(&self, path: &Path) -> Result<String, String> {
-        match self.in_memory.iter().find(|(own, _)| *own == path) {
-            Some((_, text)) => Ok((*text).to_owned()),
-            None => text_of_disk(path),
-        }
-    }
 }
 
 /// Whether a file is a model by itself.

@@ -21,6 +21,7 @@ pub mod lineup;
 mod observed;
 pub mod own_rig;
 pub mod proof;
+mod question;
 pub mod setup;
 mod setup_file;
 pub mod table;

@@ -12,7 +12,8 @@ use bowden_lab::export::{ModelFile, MOST_TERMS};
 use bowden_rig::{Rig, RigConfig};
 
 /// Parameters of the rig that are given as options; the others keep their values.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct RigChanges {
     /// Torque at the proximal pulley per command unit \[N·m/unit\].
     pub drive_gain: Option<f64>,
@@ -35,6 +36,38 @@ pub struct RigChanges {
 }
 
 impl RigChanges {
+    /// Each number with its option.
+    #[must_use]
+    pub fn options(&self) -> [(&'static str, Option<f64>); 9] {
+        [
+            ("--drive-gain", self.drive_gain),
+            ("--inertia", self.motor_inertia),
+            ("--damping", self.motor_damping),
+            ("--joint-inertia", self.joint_inertia),
+            ("--joint-damping", self.joint_damping),
+            ("--spring", self.load_stiffness),
+            ("--delay", self.delay.map(f64::from)),
+            ("--drive-lag", self.drive_lag),
+            ("--sensor-lag", self.sensor_lag),
+        ]
+    }
+
+    /// An error names the option with a number that is invalid for a rig.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        for (option, value) in self.options() {
+            let Some(value) = value else { continue };
+            let (is_valid, allowed) = match option {
+                "--damping" | "--joint-damping" => (value >= 0.0, " (0 or more)"),
+                "--delay" => (value <= 8.0, " (0 to 8)"),
+                _ => (value > 0.0, "; it must be positive"),
+            };
+            if !(is_valid && value.is_finite()) {
+                return Err(format!("{option} {value} is out of range{allowed}"));
+            }
+        }
+        Ok(())
+    }
+
     /// The rig with these numbers; a sub-step that is too long for them becomes shorter.
     ///
     /// # Errors

@@ -6,8 +6,8 @@ use bowden_cli::view::{compare as comparison, design as gains_view, Width};
 use bowden_lab::facts::Source;
 use bowden_page::{Compare as Page, Provenance};
 use bowden_trials::facts::{
-    compare as run_trials, design as derive, design_rust, Compared, DesignQuestion, Question,
-    RigChanges,
+    compare as run_trials, design as derive, design_rust, other_configuration, Compared,
+    DesignQuestion, Question, RigChanges,
 };
 use serde::Deserialize;
 use std::path::Path;
@@ -40,63 +40,8 @@ pub(crate) struct Trials {
     pub(crate) seconds: Option<f64>,
     /// Number of trials.
     pub(crate) seeds: Option<u64>,
-    /// Torque per command unit \[N·m\].
-    pub(crate) drive_gain: Option<f64>,
-    /// Inertia of motor and proximal pulley \[kg·m²\].
-    pub(crate) inertia: Option<f64>,
-    /// Viscous friction of motor and proximal pulley \[N·m·s/rad\].
-    pub(crate) damping: Option<f64>,
-    /// Inertia of the joint \[kg·m²\].
-    pub(crate) joint_inertia: Option<f64>,
-    /// Damping of the joint \[N·m·s/rad\].
-    pub(crate) joint_damping: Option<f64>,
-    /// Spring that the joint works against \[N·m/rad\].
-    pub(crate) spring: Option<f64>,
-    /// Samples between a command and the drive.
-    pub(crate) delay: Option<u8>,
-    /// Time constant of the drive \[s\].
-    pub(crate) drive_lag: Option<f64>,
-    /// Time constant of the torque sensors \[s\].
-    pub(crate) sensor_lag: Option<f64>,
-}
-
-impl Trials {
-    /// A message names the option that is out of range; the rig checks its own numbers.
-    fn check(&self) -> Result<(), String> {
-        let (seconds, seeds) = (self.seconds(), self.seeds());
-        if !(8.0..=3600.0).contains(&seconds) {
-            return Err(format!("--seconds {seconds} is out of range (8 to 3600)"));
-        }
-        if !(1..=1000).contains(&seeds) {
-            return Err(format!("--seeds {seeds} is out of range (1 to 1000)"));
-        }
-        match self.delay {
-            Some(delay) if delay > 8 => Err(format!("--delay {delay} is out of range (0 to 8)")),
-            _ => Ok(()),
-        }
-    }
-
-    fn seconds(&self) -> f64 {
-        self.seconds.unwrap_or(60.0)
-    }
-
-    fn seeds(&self) -> u64 {
-        self.seeds.unwrap_or(6)
-    }
-
-    fn rig(&self) -> RigChanges {
-        RigChanges {
-            drive_gain: self.drive_gain,
-            motor_inertia: self.inertia,
-            motor_damping: self.damping,
-            joint_inertia: self.joint_inertia,
-            joint_damping: self.joint_damping,
-            load_stiffness: self.spring,
-            drive_lag: self.drive_lag,
-            sensor_lag: self.sensor_lag,
-            delay: self.delay,
-        }
-    }
+    /// The rig.
+    pub(crate) rig: RigChanges,
 }
 
 /// Gains for a model.
@@ -132,65 +77,65 @@ pub(crate) fn compare(
     trials: &Trials,
     tell: &dyn Fn(&str),
 ) -> Result<Answer, String> {
-    trials.check()?;
     let files: Vec<&File> = std::iter::once(model).chain(gains).collect();
     let in_memory = files
         .iter()
         .map(|file| Ok((Path::new(&file.name), text_of(&file.name, &file.bytes)?)))
         .collect::<Result<Vec<_>, String>>()?;
+    let default = Question::default();
     let question = Question {
         setup: Some(Path::new(&model.name)),
         gains: gains.map(|file| Path::new(&file.name)),
-        rig: trials.rig(),
+        rig: trials.rig,
         noise: trials.noise,
         varying: trials.varying,
         gait: trials.gait,
-        seconds: trials.seconds(),
-        seeds: trials.seeds(),
-        effect: None,
+        seconds: trials.seconds.unwrap_or(default.seconds),
+        seeds: trials.seeds.unwrap_or(default.seeds),
         traced: true,
         in_memory: &in_memory,
+        ..default
     };
-    let moved = |varying| match varying {
+    let begins = |varying| match varying {
         true => tell("with the conduit moved"),
         false => tell("with the conduit at rest"),
     };
-    moved(trials.varying);
-    let mut both = vec![run_trials(&question)?];
-    // The report also has the other configuration.
-    moved(!trials.varying);
-    both.push(run_trials(&Question {
-        varying: !trials.varying,
-        ..question
-    })?);
+    begins(trials.varying);
+    let first = run_trials(&question)?;
+    begins(!trials.varying);
+    let other = other_configuration(&question, &first)?;
     let command = command::compare(&model.name, gains.map(|file| &file.name[..]), trials);
     let sources = files
         .iter()
         .map(|file| Source::of_bytes(&file.name, &file.bytes));
-    Ok(compared(&both, command, sources.collect()))
+    Ok(compared(&first, other, command, sources.collect()))
 }
 
-fn compared(both: &[Compared], command: String, sources: Vec<Source>) -> Answer {
-    let mut answer = Answer::default();
-    let mut own = |name: &str, text: String| {
-        answer.files.push((name.to_owned(), text.into_bytes()));
-    };
-    let page = Page { compared: both };
+fn compared(
+    first: &Compared,
+    other: Option<Compared>,
+    command: String,
+    sources: Vec<Source>,
+) -> Answer {
     let from = Provenance {
         command: command.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         sources,
     };
-    own("report.html", page.page(&from));
-    let mut first = Vec::new();
-    if let Some(one) = both.first() {
-        let shown = plain(&comparison::text(one, Width::of(80), false));
-        first = headline(&shown);
-        own("result.json", format!("{}\n", comparison::json(one)));
-        own("result.txt", shown);
-    }
-    answer.put("headline", first);
+    let shown = plain(&comparison::text(first, Width::of(80), false));
+    let mut answer = Answer::default();
+    answer.put("headline", headline(&shown));
     answer.put("command", command);
+    let mut both = vec![first.clone()];
+    both.extend(other);
+    let page = Page { compared: &both };
+    for (name, text) in [
+        ("report.html", page.page(&from)),
+        ("result.json", format!("{}\n", comparison::json(first))),
+        ("result.txt", shown),
+    ] {
+        answer.files.push((name.to_owned(), text.into_bytes()));
+    }
     answer
 }
 

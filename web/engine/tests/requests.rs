@@ -163,7 +163,7 @@ fn gains_and_trials_are_those_of_the_program() {
     for (name, bytes) in [("model.toml", MODEL.as_bytes()), ("gains.toml", gains)] {
         let _ = ask(&mut engine, &json!({"ask": "add", "name": name}), bytes);
     }
-    let options = json!({"seconds": 8.0, "seeds": 2, "spring": 120.0});
+    let options = json!({"seconds": 8.0, "seeds": 2, "rig": {"load_stiffness": 120.0}});
     let compare = json!({
         "ask": "compare", "model": "model.toml", "gains": "gains.toml", "options": options
     });
@@ -225,8 +225,12 @@ fn what_cannot_be_designed_or_compared_gets_one_line() {
         ),
         (compare(json!({"seconds": 1.0})), "", "--seconds 1 "),
         (compare(json!({"seeds": 0})), "", "--seeds 0 "),
-        (compare(json!({"delay": 9})), "", "--delay 9 "),
-        (compare(json!({"inertia": -1.0})), "", "inertia"),
+        (compare(json!({"rig": {"delay": 9}})), "", "--delay 9 "),
+        (
+            compare(json!({"rig": {"motor_inertia": -1.0}})),
+            "",
+            "--inertia -1 ",
+        ),
         (compare(json!({"noise": -1.0})), "", "--noise -1"),
         (
             json!({"ask": "compare", "model": "model.toml", "gains": "none"}),
