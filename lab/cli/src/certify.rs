@@ -10,8 +10,8 @@ use std::process::ExitCode;
 #[derive(Args)]
 pub struct Certify {
     /// Your gains for the first-order form, and the known ranges of the plant parameters. The
-    /// program then proves an error bound for the controller in its float type, including every
-    /// rounding error. The exit status is 1 if the proof fails.
+    /// program then tries to prove an error bound for the controller in its float type, including
+    /// every rounding error. The exit status is 1 if the proof fails.
     #[arg(value_name = "GAINS.toml", conflicts_with = "gains")]
     own: Option<PathBuf>,
     /// Gains and rig [default: the gains of Nguyen et al. (2018) and the reference rig].

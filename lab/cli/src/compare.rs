@@ -21,7 +21,7 @@ pub struct Compare {
     /// Move the conduit during the trials, so that B, kappa_eta and T0 drift.
     #[arg(long)]
     varying: bool,
-    /// Follow a gait, with an ankle's push-off once per second, instead of the reference of Nguyen
+    /// Follow a gait, with an ankle push-off once per second, instead of the reference of Nguyen
     /// et al. (2018). This also runs a controller with iterative learning.
     #[arg(long, conflicts_with = "effect")]
     gait: bool,
@@ -65,8 +65,8 @@ pub struct Compare {
 /// Numbers of the rig.
 #[derive(Args)]
 struct RigOptions {
-    /// Torque at the proximal pulley per command unit [N·m] [default: the value in the --gains of
-    /// `bowden design`, or 0.6].
+    /// Torque at the proximal pulley per command unit [N·m] [default: the value in the --gains file
+    /// from `bowden design`, or 0.6].
     #[arg(long, value_name = "N·m")]
     drive_gain: Option<f64>,
     /// Inertia of motor and proximal pulley [kg·m²] [default: 0.2].

@@ -10,7 +10,7 @@ pub struct Export {
     /// The model: a file written by `identify --model-out`.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
-    /// Write a C header that needs only the library of capi/.
+    /// Write a C header that needs only the library in capi/.
     #[arg(long, required = true)]
     c: bool,
     /// Write to this file instead of stdout. The file name becomes the prefix of all names in the

@@ -152,7 +152,7 @@ fn reasons(facts: &CheckFacts) -> Markup {
         }
         @for one in &facts.outside {
             p {
-                (quantity(&one.channel, one.unit.as_deref())) ": the " (one.quantity) " goes from " (pair(one.here))
+                (quantity(&one.channel, one.unit.as_deref())) ": the " (one.quantity) " ranges from " (pair(one.here))
                 ", but the fit covered " (pair(one.seen)) " (" (format!("{:.0}", 100.0 * one.share))
                 " % of the samples are outside)."
             }

@@ -72,7 +72,7 @@ impl Compare<'_> {
                 p class="note" {
                     "The figures follow Figures 7 to 10 of "
                     cite { "Direct Torque Control for Cable Conduit Mechanisms for the Robotic Foot for Footwear Testing" }
-                    ", but the plant here is simulated. Each figure shows the first seed. The tables list all seeds."
+                    ", but the plant here is simulated. Each figure shows the trial with the first seed. The tables cover all seeds."
                 }
             },
         };

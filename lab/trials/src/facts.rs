@@ -303,7 +303,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     let own = setup.map_or_else(|| Ok(Setup::default()), Setup::read)?;
     match (setup, &own.model) {
         (Some(path), Some(_)) => Err(format!(
-            "{}: this file is a model; these certificates need a file with gains, and with a table [rig] unless the rig is the reference rig. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees",
+            "{}: this file is a model; these certificates need a file with gains, and with a [rig] table unless the rig is the reference rig. `bowden design MODEL.toml --rate HZ --delay S` derives gains from a model, with guarantees",
             path.display()
         )),
         _ => Ok(Certified {

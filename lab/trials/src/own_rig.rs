@@ -128,7 +128,7 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();
-    cable.ok_or_else(|| "the model has no table `transmission`".to_owned())
+    cable.ok_or_else(|| "the model has no `transmission` table".to_owned())
 }
 
 /// The effects of a model for the rig, whose pulleys are the channels `phi_p` and `phi_d`.

@@ -61,7 +61,7 @@ static OF_LEARNING: &[&str] = &[
     "a constant cycle time from 0.9 to 1.1 s, and a phase that advances at a constant rate",
     "friction and load repeat, or are bounded disturbances; f is any constant slope of the hysteresis",
     "neither the command limit nor the limit of the learned values is active, and no sample is bad",
-    "the remaining error is not bounded; near and above the corner frequency of the filter, it may exceed the error without iterative learning",
+    "no bound on the remaining error is proved; near and above the corner frequency of the filter, it may exceed the error without iterative learning",
 ];
 
 impl Middle {

@@ -234,9 +234,9 @@ fn notes(heading: &Heading, lineup: &Lineup, verbose: bool) -> Vec<String> {
     notes
 }
 
-const CALIBRATED: &str = "The rig's drive gain and noise were chosen so that PI and the adaptive law match Table 3 of Nguyen et al. (2018). The rows pi and adaptive are therefore a calibration, not a validation.";
+const CALIBRATED: &str = "The rig's drive gain and noise were chosen so that PI and the adaptive law match Table 3 of Nguyen et al. (2018). The `pi` and `adaptive` rows are therefore a calibration, not a validation.";
 
-const NOT_REPRODUCED: &str = "Two results of the paper are not reproduced: that PIV is better than PI, and the scatter between trials.";
+const NOT_REPRODUCED: &str = "Two results of the paper are not reproduced: the advantage of PIV over PI, and the scatter between trials.";
 
 const OF_THE_REFERENCE_RIG: &str = "Rig parameters default to the values of the reference rig.";
 
@@ -256,15 +256,15 @@ const NOT_OF_THIS_RIG: &str = "No bounds are shown, because they hold only for t
 const OF_CONTROLLERS: [(&str, &str); 5] = [
     ("matched-pi", "a PI with the effective integral gain of the adaptive law in Nguyen et al. (2018), which is 320. Its error shows the effect of this gain without adaptation."),
     ("pi-observer", "a PI with lower gains and a disturbance observer, without a friction model. `bowden certify` prints the range of plants for which the loop is stable."),
-    ("adaptive-frozen", "beta_hat is 1/alpha, delta_hat is the given value, and neither adapts."),
+    ("adaptive-frozen", "the adaptive law with fixed estimates. beta_hat is 1/alpha if its given value is 0."),
     ("adaptive-feed-forward", "the adaptive law plus a feed-forward, which is the inverse of the rig's own transmission or of the given model."),
     ("pi-learning", "the PI of Nguyen et al. (2018) plus iterative learning: a correction for each cell of the cycle, computed with the inverse of the nominal plant. It needs the phase of the cycle and takes five to twenty cycles to learn."),
 ];
 
 const OF_COLUMNS: [&str; 3] = [
     "Columns: `measured` is the rms of the measured error, as in Table 3 of Nguyen et al. (2018). `% max` is this rms as a percentage of the largest reference.",
-    "Columns: `effort` is the total variation of the command [units/s].",
-    "Columns: `bound` is the proved bound on the rms error of an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
+    "Columns: `effort` is the command's total variation per second [units/s].",
+    "Columns: `bound` is the proved bound on the rms error for an idealised plant without sensor noise. `bowden certify` lists its assumptions.",
 ];
 
 fn lineup_json(heading: &Heading, lineup: &Lineup) -> String {

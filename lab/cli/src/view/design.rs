@@ -221,7 +221,7 @@ fn details(designed: &Designed) -> Vec<String> {
             asked.least_real
         ),
         format!(
-            "Re L {:.2}: smallest real part of the open-loop frequency response. Above -1, the loop is stable for every sequence of slopes between zero and the design slope (circle criterion)",
+            "Re L {:.2}: smallest real part of the open-loop frequency response. If it is above -1, the loop is stable for every sequence of slopes between zero and the design slope (circle criterion)",
             designed.pi.margins.least_real
         ),
         format!(

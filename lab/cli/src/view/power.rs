@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 
 /// The method, in one sentence.
-const SIMULATED: &str = "Each trial record is the sum of the identified model's prediction, its residual (shifted circularly, with sign changes) and one effect with the middle one of its trial shapes. Each trial is a complete identification with search, refits and tests. An effect counts as found if a term or an alternative belongs to its family.";
+const SIMULATED: &str = "Each trial record is the sum of the identified model's prediction, its residual (shifted circularly, and negated in every other trial) and one effect with its middle trial shape. Each trial is a complete identification with search, refits and tests. An effect counts as found if a term or an alternative belongs to its family.";
 
 #[derive(Serialize)]
 struct Whole<'a> {
@@ -164,7 +164,7 @@ pub fn power_text(power: &PowerFacts, width: Width, verbose: bool) -> String {
     block(&mut out, width, "Model", [power.model.join(", ")]);
     let (named, trials) = (power.named_without, power.trials);
     let mut notes = vec![format!(
-        "without an added effect, {named} of {trials} trials find one"
+        "without an added effect, one is found in {named} of {trials} trials"
     )];
     if verbose {
         notes.push(format!("Simulation: {SIMULATED}"));
@@ -201,7 +201,7 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
         (colour, &headline),
     );
     let words = format!(
-        "The table lists the smallest amplitude of each effect that was found in at least {:.0} % of {} trials.",
+        "For each effect, the table lists the smallest amplitude that was found in at least {:.0} % of {} trials.",
         100.0 * SHARE,
         power.trials
     );

@@ -140,9 +140,9 @@ fn words(one: &Across) -> String {
             "{}: found only in the joint fit, not in any single file",
             one.title
         ),
-        (true, n) if n == all => format!("{}: found in each single file, {high}", one.title),
+        (true, n) if n == all => format!("{}: found in each individual file, {high}", one.title),
         (true, n) => format!(
-            "{}: found in {n} of {all} single files, {high}; not in {}",
+            "{}: found in {n} of {all} individual files, {high}; not in {}",
             one.title,
             others()
         ),

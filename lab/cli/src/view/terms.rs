@@ -27,7 +27,7 @@ mechanism     What the missing output depends on: friction (a velocity), elastic
               a load), inertia (an acceleration), contact memory (the travel since the last
               reversal), the shape of the hysteresis, or time.
 in brackets   A term that is not in the final model. Without it, the model is as good on blocks
-              that were left out of the fit. --json lists the term under undelivered.
+              that were left out of the fit. --json lists the term under `undelivered`.
 coefficient   Gain of the term in the final model with its 95 % interval (jackknife over sixteen
               blocks). \"present, size unknown\" means that the interval contains zero, because
               other terms can replace this one.

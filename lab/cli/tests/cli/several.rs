@@ -170,7 +170,7 @@ fn the_report_says_what_each_file_supports_alone() {
     let [a, b] = ["straight.csv", "straight_later.csv"].map(example);
     let report = said(&["identify", &a, &b]);
     let line =
-        "Files   friction over the velocity of phi_p: found in each single file, with high confidence\n";
+        "Files   friction over the velocity of phi_p: found in each individual file, with high confidence\n";
     assert!(report.contains(line), "{report}");
     assert!(!report.contains("not the joint fit"), "{report}");
 }

@@ -50,7 +50,7 @@ impl Finding {
                 )
             }
             Self::HeldOutFileScaled { path, gain, offset, unit, error } => format!(
-                "With a gain of {gain:.4} and an offset of {offset:.4}{} the error on {path} is {:.2} %. Does a unit, a sign or a zero differ in that file? `--per-file gains` fits the gains of each file separately.",
+                "With a gain of {gain:.4} and an offset of {offset:.4}{}, the error on {path} is {:.2} %. Does a unit, a sign or a zero differ in that file? `--per-file gains` fits the gains of each file separately.",
                 spaced(unit.as_deref()),
                 100.0 * error,
             ),
@@ -70,7 +70,7 @@ impl Finding {
                     text += &format!(" The search added {}.", terms.join(", then "));
                     text += &match *falls_up_to {
                         0 => " The first of them already raises the error.".to_owned(),
-                        n if n < terms.len() => format!(" The error falls up to and including {}, and {} raises it.", terms[n - 1], terms[n]),
+                        n if n < terms.len() => format!(" The error falls up to and including {}, but {} raises it.", terms[n - 1], terms[n]),
                         _ => " Only the final fit, which uses more data, raises the error.".to_owned(),
                     };
                 }
@@ -149,7 +149,7 @@ impl Finding {
                 format!("The preload changes in a step at the start of `{path}`. Does a sensor have a different zero in this file?{gains}")
             }
             Self::CoarseSensor { channel, unit } => coarse(channel, unit.as_deref()),
-            Self::OutputLeads { seconds } => format!("In the model the output precedes the input by about {:.1} ms, which is not causal. Were both signals logged with the same clock? If so, the model lacks an effect that produces a phase lead.", 1e3 * seconds),
+            Self::OutputLeads { seconds } => format!("In the model the output leads the input by about {:.1} ms, which is not causal. Were both signals logged with the same clock? If so, the model lacks an effect that produces a phase lead.", 1e3 * seconds),
             Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
                 true => format!("The output moves {:.0} times as much on the fit segment as on the held-out segment, so the percentages of the two segments are not comparable.", fit / held_out),
                 false => format!("The output moves {:.0} times as much on the held-out segment as on the fit segment, so the percentages of the two segments are not comparable.", held_out / fit),
@@ -180,7 +180,7 @@ impl Finding {
             Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one term, as requested. Further terms may be missing.".to_owned(),
             Self::SearchStopped { terms: Some(most), .. } => format!("The search stopped after {most} terms, as requested. Further terms may be missing."),
             Self::RoundRaises { term, after: 0 } => format!("On held-out data the first term, {term}, already raises the error."),
-            Self::RoundRaises { term, after } => format!("On held-out data the error falls up to and including term {after}, and {term} raises it."),
+            Self::RoundRaises { term, after } => format!("On held-out data the error falls up to and including term {after}, but {term} raises it."),
             Self::FileWorse { path, before, after } => format!("The error rises for {path}: {:.1} % → {:.1} %.", 100.0 * before, 100.0 * after),
             Self::ManyTerms { .. } => "Terms after the third have little physical meaning, because several effects would fit equally well.".to_owned(),
             // Of a validation.

@@ -25,7 +25,7 @@ pub fn declared(name: &str, data: &Prepared) -> Result<FitTerm, String> {
                     let names = data.channels.iter().map(|c| c.name.as_str());
                     let all: Vec<&str> = names.chain([data.input.name.as_str()]).collect();
                     return Err(format!(
-                        "--baseline {name}@{channel}: no such channel among {}{}",
+                        "--baseline {name}@{channel}: no such channel; the channels are {}{}",
                         all.join(", "),
                         nearest(channel, all.iter().copied())
                     ));

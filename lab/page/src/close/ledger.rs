@@ -133,7 +133,7 @@ fn mechanisms(facts: &Facts) -> Markup {
     html! {
         (table("Missing mechanisms", &head, 2..4, &rows))
         p class="note" {
-            "By itself, added to the others: share of the baseline's squared error that the mechanism removes on half of the record, after a fit to the other half. The brackets give the quartiles over twenty halves."
+            "By itself / added to the others: share of the baseline's squared error that the mechanism removes on half of the record, after a fit to the other half. The brackets give the quartiles over twenty halves."
         }
         div class="grid-of" { @for chart in &charts { (chart) } }
         p class="note" {
@@ -166,7 +166,7 @@ fn files_alone(facts: &Facts) -> Markup {
     }
     html! {
         @if !facts.files_alone.is_empty() {
-            (table("Confidence of each mechanism in each single file", &head, 0..0, &rows))
+            (table("Confidence of each mechanism in each individual file", &head, 0..0, &rows))
         }
     }
 }
@@ -304,7 +304,7 @@ fn turned_down(facts: &Facts) -> Markup {
 pub(super) fn blocks(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         @if figures.blocks.is_empty() {
-            p { "No effect was added, so there is no comparison block by block." }
+            p { "No effect was added, so there is no block-by-block comparison." }
         } @else {
             p {
                 "The fit segment is divided into " (BLOCKS) " blocks of equal travel. Each bar is the share of the block's squared error "

@@ -308,7 +308,7 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
             (record.input) " → " (record.output)
             @if !record.channels.is_empty() { ", with " (record.channels.join(", ")) }
             ". The same zero-phase filter is applied to all signals; its cut-off frequency is " (record.cutoff) " Hz. The parameters are fitted on "
-            i { "fit" } ", " i { "selection" } " serves to reject terms that raise the error, and nothing is fitted on " i { "held-out" } "."
+            i { "fit" } ", " i { "selection" } " is used to reject terms that raise the error, and nothing is fitted on " i { "held-out" } "."
         }
         @for note in &record.notes { p class="note" { (note) } }
         @for defect in &record.defects { p { b { "Defect. " } (defect.channel) ": " (defect.message) } }

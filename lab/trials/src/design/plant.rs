@@ -146,13 +146,13 @@ impl Plant {
         }
         let model = file.model::<{ bowden_lab::export::MOST_TERMS }>()?;
         let Some(cable) = model.transmission().copied() else {
-            return Err("the model has no table `transmission`".to_owned());
+            return Err("the model has no `transmission` table".to_owned());
         };
         let about = file.about.clone().ok_or(
-            "the model has no table `about`, but the limits come from `about.ranges`, which `bowden identify --model-out` writes",
+            "the model has no `about` table, but the limits come from `about.ranges`, which `bowden identify --model-out` writes",
         )?;
         let seen = about.ranges.get("input").ok_or(
-            "the model has no table `about.ranges.input`, from which the limits come; `bowden identify --model-out` writes it",
+            "the model has no `about.ranges.input` table, from which the limits come; `bowden identify --model-out` writes it",
         )?;
         let (input, input_rate) = (seen.position, seen.velocity);
         for (range, name) in [(input, "position"), (input_rate, "velocity")] {
@@ -203,7 +203,7 @@ impl Plant {
         use bowden::effect::{EffectState, Inputs, Motion};
         let Some(span) = self.about.ranges.get(&term.source) else {
             return Err(format!(
-                "the model has no table `about.ranges.{}`, but the term {} reads this channel",
+                "the model has no `about.ranges.{}` table, but the term {} reads this channel",
                 term.source, term.effect
             ));
         };

@@ -56,9 +56,9 @@ impl Designed {
     pub fn certifies(&self) -> Certifies {
         let lacks = match (&self.gains.adaptive, &self.gains.plant) {
             (None, _) => {
-                "the file has no table [adaptive], because no gains of the adaptive law are admissible"
+                "the file has no [adaptive] table, because no gains of the adaptive law are admissible"
             }
-            (_, None) => "the file has no table [plant]",
+            (_, None) => "the file has no [plant] table",
             _ => {
                 return match designed::prove(&self.gains) {
                     Ok(proof) if proof.proved => Certifies::Proves,

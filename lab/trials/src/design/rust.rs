@@ -132,7 +132,7 @@ fn bounds(designed: &Designed, out: &mut String) {
     line!(out);
     line!(
         out,
-        "/// Longest valid `dt` [s]; a sample with a longer one is bad."
+        "/// Longest valid `dt` [s]; a sample with a longer `dt` counts as bad."
     );
     item("pub const LONGEST_DT: f32", &number(b.longest_dt), out);
 }
@@ -184,7 +184,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
         ("EPSILON", "epsilon [N·m]", own.epsilon),
         (
             "LONGEST_STEP",
-            "Longest valid step of the law [s]; a longer step is bad",
+            "Longest valid step of the law [s]; a longer step counts as bad",
             own.longest_dt,
         ),
     ] {

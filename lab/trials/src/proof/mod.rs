@@ -221,7 +221,7 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 }
 
 /// The error for a file of gains without a plant.
-const NO_PLANT: &str = "has no [plant]; add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
+const NO_PLANT: &str = "has no [plant]; add a [plant] table with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
 
 /// The same for a text; `label` is the name of the file.
 ///

@@ -351,7 +351,7 @@ fn gains_without_their_plant_are_told_what_was_expected() {
     let path = folder.root().join("bare.toml");
     std::fs::write(&path, format!("{before}[[regressor]]{behind}")).unwrap();
     let line = refused(&["certify", path.to_str().unwrap()]);
-    let expected = "bare.toml: has no [plant]; add a table [plant] with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
+    let expected = "bare.toml: has no [plant]; add a [plant] table with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
     assert!(line.ends_with(expected), "{line}");
     // What else is missing is told without the comment at the head of the file.
     std::fs::write(&path, own.replace("epsilon = 0.08", "")).unwrap();

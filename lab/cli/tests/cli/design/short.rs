@@ -29,7 +29,7 @@ fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     assert!(
         report.contains("`bowden compare` cannot use this model")
             && report
-                .contains("`bowden certify` rejects these gains: the file has no table [plant]"),
+                .contains("`bowden certify` rejects these gains: the file has no [plant] table"),
         "{report}"
     );
     let gains = place.path("gains.toml");
@@ -131,7 +131,7 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
     ] {
         let report = said(&[["design", &model].as_slice(), &asked].concat());
         assert!(
-            report.contains("these gains: the file has no table [adaptive]"),
+            report.contains("these gains: the file has no [adaptive] table"),
             "{report}"
         );
         let line = report.lines().find(|l| l.contains("exclude each other"));
