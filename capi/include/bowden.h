@@ -1923,8 +1923,8 @@ typedef struct bowden_plausible_settings_f32 {
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
     // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
-    // A dt that is longer, negative or not finite is treated as this dt [s], at least
-    // 0. With 0, the time after a negative or non-finite dt is unknown.
+    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite. With 0,
+    // the time after a negative or non-finite dt is unknown.
     float longest_dt;
 } bowden_plausible_settings_f32;
 
@@ -1978,8 +1978,8 @@ typedef struct bowden_plausible_settings_f64 {
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
     // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
-    // A dt that is longer, negative or not finite is treated as this dt [s], at least
-    // 0. With 0, the time after a negative or non-finite dt is unknown.
+    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite. With 0,
+    // the time after a negative or non-finite dt is unknown.
     double longest_dt;
 } bowden_plausible_settings_f64;
 
