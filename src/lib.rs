@@ -1,7 +1,7 @@
 //! Bouc-Wen models of cable transmissions, and torque controllers, for firmware.
 //!
 //! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
-//! on the present input and on earlier inputs. This crate models this hysteresis, in torque or in
+//! on the present input and on earlier inputs. The crate models this hysteresis, in torque or in
 //! displacement, with the **Bouc-Wen** equation. A catalogue of **effects**, such as viscous
 //! friction and backlash, complements this model.
 //!

@@ -706,7 +706,7 @@ typedef struct bowden_adaptive_sample_f32 {
     // Regressors x_i [their own units]; in the paper, velocity and acceleration.
     // Entries beyond the number of regressors in the settings are ignored.
     float regressors[BOWDEN_REGRESSORS];
-    // Feed-forward [command unit], added to the command of the law.
+    // Feed-forward [command unit], added to the command of the adaptive law.
     float feed_forward;
 } bowden_adaptive_sample_f32;
 
@@ -903,7 +903,7 @@ typedef struct bowden_adaptive_sample_f64 {
     // Regressors x_i [their own units]; in the paper, velocity and acceleration.
     // Entries beyond the number of regressors in the settings are ignored.
     double regressors[BOWDEN_REGRESSORS];
-    // Feed-forward [command unit], added to the command of the law.
+    // Feed-forward [command unit], added to the command of the adaptive law.
     double feed_forward;
 } bowden_adaptive_sample_f64;
 
@@ -2476,7 +2476,7 @@ bowden_result bowden_compensator_step_f32(struct bowden_compensator_f32 *compens
 //
 // Call this function between two steps, for example if the drive is off or another
 // controller adds a command. The hysteresis then follows this input. Only the last
-// report after a step counts. A command that is not finite changes nothing
+// report after a step is used. A command that is not finite changes nothing
 // (BOWDEN_RESULT_HELD).
 bowden_result bowden_compensator_applied_f32(struct bowden_compensator_f32 *compensator,
                                              float command);
@@ -2531,7 +2531,7 @@ bowden_result bowden_compensator_step_f64(struct bowden_compensator_f64 *compens
 //
 // Call this function between two steps, for example if the drive is off or another
 // controller adds a command. The hysteresis then follows this input. Only the last
-// report after a step counts. A command that is not finite changes nothing
+// report after a step is used. A command that is not finite changes nothing
 // (BOWDEN_RESULT_HELD).
 bowden_result bowden_compensator_applied_f64(struct bowden_compensator_f64 *compensator,
                                              double command);

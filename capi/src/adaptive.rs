@@ -39,7 +39,7 @@ macro_rules! adaptive {
                 /// Regressors x_i [their own units]; in the paper, velocity and acceleration.
                 /// Entries beyond the number of regressors in the settings are ignored.
                 pub regressors: [$f; BOWDEN_REGRESSORS],
-                /// Feed-forward [command unit], added to the command of the law.
+                /// Feed-forward [command unit], added to the command of the adaptive law.
                 pub feed_forward: $f,
             }
 

@@ -13,8 +13,8 @@ crate::data! {
         /// Equation (23) as published, with e' as a filtered difference of the error.
         ///
         /// This form is for a plant with inertia, whose output cannot follow the command
-        /// immediately. On a static plant with one sample of delay, it diverges unless `g·k < 1`
-        /// with g = alpha·beta_hat. Without the filter, the condition is
+        /// immediately. On a static plant with one sample of delay, this form diverges unless
+        /// `g·k < 1` with g = alpha·beta_hat. Without the filter, the condition is
         /// `g·(k + 2/(lambda·h)) < 1`.
         AsPublished {
             /// Time constant of the filter of e' \[s\], not negative; usually 2 to 20 ms.
@@ -24,7 +24,7 @@ crate::data! {
         ///
         /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. This form is for a plant that responds within a
         /// sample (a stiff drive, a blocked joint), where it is equivalent to (22). On a plant with
-        /// inertia, it diverges.
+        /// inertia, this form diverges.
         FirstOrder {
             /// Longest intended sampling period \[s\], positive.
             step: T,
