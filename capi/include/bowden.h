@@ -617,7 +617,7 @@ typedef struct bowden_fallback_f32 {
 typedef struct bowden_adaptive_settings_f32 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
-    // Form of the law, one of bowden_form.
+    // Form of the adaptive law, one of bowden_form.
     uint32_t form;
     // Form as published: filter time constant of the error rate [s], at least 0,
     // usually 2 to 20 ms.
@@ -820,7 +820,7 @@ typedef struct bowden_fallback_f64 {
 typedef struct bowden_adaptive_settings_f64 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
-    // Form of the law, one of bowden_form.
+    // Form of the adaptive law, one of bowden_form.
     uint32_t form;
     // Form as published: filter time constant of the error rate [s], at least 0,
     // usually 2 to 20 ms.
@@ -1923,8 +1923,8 @@ typedef struct bowden_plausible_settings_f32 {
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
     // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
-    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite. With 0,
-    // the time after a negative or non-finite dt is unknown.
+    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
+    // With 0, the time after a negative or non-finite dt is unknown.
     float longest_dt;
 } bowden_plausible_settings_f32;
 
@@ -1978,8 +1978,8 @@ typedef struct bowden_plausible_settings_f64 {
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
     // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
-    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite. With 0,
-    // the time after a negative or non-finite dt is unknown.
+    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
+    // With 0, the time after a negative or non-finite dt is unknown.
     double longest_dt;
 } bowden_plausible_settings_f64;
 

@@ -78,8 +78,8 @@ macro_rules! plausible {
                 /// Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
                 /// check. The check counts repetitions only while the machine moves.
                 pub stuck_after: u32,
-                /// This dt [s], at least 0, replaces a dt that is longer, negative or not finite. With 0,
-                /// the time after a negative or non-finite dt is unknown.
+                /// This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
+                /// With 0, the time after a negative or non-finite dt is unknown.
                 pub longest_dt: $f,
             }
 

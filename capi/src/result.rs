@@ -243,7 +243,7 @@ pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
     (code, fault.into(), regressor)
 }
 
-/// The result code of a step of the rates, and the bad input.
+/// The result code of a step of the velocity and acceleration estimates, and the bad input.
 pub(crate) fn of_rates(status: RateStatus) -> (bowden_result, bowden_fault) {
     let code = match status {
         RateStatus::Good => bowden_result::Ok,
