@@ -187,7 +187,7 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// The same rates for positions modulo `period > 0` \[channel unit\], such as those of a
+    /// The same estimator for positions modulo `period > 0` \[channel unit\], such as those of a
     /// counter.
     ///
     /// The position of the motion is unwrapped, so it continues when the counter wraps. Between two
@@ -203,7 +203,7 @@ crate::checked! {
         Ok(Rates { period, ..rates })
     }
 
-    /// The same rates with another longest gap \[s\], which must be positive.
+    /// The same estimator with another longest gap \[s\], which must be positive.
     ///
     /// The longest gap must exceed the longest `dt` of the loop in normal operation.
     ///

@@ -65,8 +65,8 @@ impl<T: Real> ObserverState<T> {
     /// Initial state, before the first sample. Its estimate is zero.
     ///
     /// The observer treats the first good sample as a steady state. The estimate is then the
-    /// applied command minus the command that the nominal plant needs at rest. After the drive was
-    /// off, start from the initial state, because earlier commands did not reach the motor.
+    /// applied command minus the command that the nominal plant needs at rest. After the drive has
+    /// been off, start from the initial state, because earlier commands did not reach the motor.
     pub const fn new() -> Self {
         Self {
             lags: None,
