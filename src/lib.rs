@@ -1,9 +1,9 @@
 //! Bouc-Wen models of cable transmissions, and torque controllers, for firmware.
 //!
 //! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
-//! on the present input and on earlier inputs. This crate models the cable with a **Bouc-Wen**
-//! hysteresis of torque or displacement. A catalogue of **effects**, such as viscous friction and
-//! backlash, complements this model.
+//! on the present input and on earlier inputs. The crate models this hysteresis, in torque or in
+//! displacement, with the **Bouc-Wen** equation. A catalogue of **effects**, such as viscous
+//! friction and backlash, complements this model.
 //!
 //! The crate is `no_std`, allocates no memory, contains no unsafe code, and is generic over `f32`
 //! and `f64`. Its run-time dependencies are `num-traits` and `libm`.

@@ -7,10 +7,11 @@
 //!
 //! # The inverse
 //! The inverse computes the input for a given output. The input is unique if the output rises with
-//! the input on every branch. The slope of eta over the input lies in `[0, 2·sigma·rho]`. In torque
-//! mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`. For the first parameter set of
-//! Nguyen et al. (2018) this bound is 0.743, but sigma is 98.36. Use such a set only for simulation
-//! and identification: after a reversal, its output falls while its input rises.
+//! the input on every branch. The slope of eta with respect to the input lies in
+//! `[0, 2·sigma·rho]`. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`.
+//! For the first parameter set of Nguyen et al. (2018) this bound is 0.743, but sigma is 98.36. Use
+//! such a set only for simulation and identification: after a reversal, its output falls while its
+//! input rises.
 //!
 //! The condition follows from the slope of the equation. The slope of the `f32` step does not
 //! exceed it up to n = 4 (proved) and up to n = 10 (measured). For n of about 12 or more, the step
@@ -224,8 +225,8 @@ impl<T: Real> Transmission<T> {
     /// bounded. A slew-rate limit may therefore follow the inverse.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if no float
-    /// is small enough.
+    /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if the
+    /// required rho is too small for the float type.
     pub fn nearest_invertible(&self) -> Result<Self, Error> {
         if self.gain == T::zero() || self.inverse().is_ok() {
             return self.inverse().map(|_| *self);

@@ -50,7 +50,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Maximum number of regressors of an adaptive law.
+// Maximum number of regressors in an adaptive law.
 #define BOWDEN_REGRESSORS 4
 
 // Size in 64-bit words.
@@ -107,7 +107,7 @@
 // Size in 64-bit words.
 #define BOWDEN_INVERSE_F64_WORDS 20
 
-// Maximum number of cells of a cycle.
+// Maximum number of cells in a cycle.
 #define BOWDEN_CELLS 65535
 
 // Size in 64-bit words.
@@ -116,13 +116,13 @@
 // Size in 64-bit words.
 #define BOWDEN_ITERATIVE_LEARNING_F64_WORDS 18
 
-// Maximum number of terms of a model.
+// Maximum number of terms in a model.
 #define BOWDEN_TERMS 16
 
-// Maximum number of channels of a sample.
+// Maximum number of channels in a sample.
 #define BOWDEN_CHANNELS 16
 
-// Maximum number of bytes of a model. No model with BOWDEN_TERMS terms exceeds this limit.
+// Maximum size of a model, in bytes. No model with BOWDEN_TERMS terms exceeds this limit.
 #define BOWDEN_MODEL_BYTES 2048
 
 // Size in 64-bit words.
@@ -180,10 +180,10 @@ enum bowden_result
  {
     // Success. For a step: a good sample.
     BOWDEN_RESULT_OK = 0,
-    // A good sample, but the rates started from zero less than five time constants ago, or fewer
-    // than two counts are known.
+    // A good sample, but velocity and acceleration started from zero less than five time constants
+    // ago, or the position has changed fewer than two times.
     BOWDEN_RESULT_SETTLING = 1,
-    // A good position after an unknown time. The rates are held.
+    // A good position after an unknown time. Velocity and acceleration are held.
     BOWDEN_RESULT_RESUMED = 2,
     // Adaptive law: the term of a bad regressor was omitted, and the estimates do not change.
     // Iterative learning: the error of this sample, or of the cell before a jump, was ignored.
@@ -617,7 +617,7 @@ typedef struct bowden_fallback_f32 {
 typedef struct bowden_adaptive_settings_f32 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
-    // Form of the law, one of bowden_form.
+    // Form of the adaptive law, one of bowden_form.
     uint32_t form;
     // Form as published: filter time constant of the error rate [s], at least 0,
     // usually 2 to 20 ms.
@@ -706,7 +706,7 @@ typedef struct bowden_adaptive_sample_f32 {
     // Regressors x_i [their own units]; in the paper, velocity and acceleration.
     // Entries beyond the number of regressors in the settings are ignored.
     float regressors[BOWDEN_REGRESSORS];
-    // Feed-forward [command unit], added to the command of the law.
+    // Feed-forward [command unit], added to the command of the adaptive law.
     float feed_forward;
 } bowden_adaptive_sample_f32;
 
@@ -820,7 +820,7 @@ typedef struct bowden_fallback_f64 {
 typedef struct bowden_adaptive_settings_f64 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
-    // Form of the law, one of bowden_form.
+    // Form of the adaptive law, one of bowden_form.
     uint32_t form;
     // Form as published: filter time constant of the error rate [s], at least 0,
     // usually 2 to 20 ms.
@@ -903,7 +903,7 @@ typedef struct bowden_adaptive_sample_f64 {
     // Regressors x_i [their own units]; in the paper, velocity and acceleration.
     // Entries beyond the number of regressors in the settings are ignored.
     double regressors[BOWDEN_REGRESSORS];
-    // Feed-forward [command unit], added to the command of the law.
+    // Feed-forward [command unit], added to the command of the adaptive law.
     double feed_forward;
 } bowden_adaptive_sample_f64;
 
@@ -1105,7 +1105,7 @@ typedef struct bowden_edge_velocity_settings_f32 {
 
 // Output of bowden_edge_velocity_step.
 typedef struct bowden_edge_velocity_output_f32 {
-    // Velocity [channel unit/s], finite; zero until two counts are known.
+    // Velocity [channel unit/s], finite; zero until the position has changed twice.
     float velocity;
     // Return value of the step.
     bowden_result result;
@@ -1151,7 +1151,7 @@ typedef struct bowden_edge_velocity_settings_f64 {
 
 // Output of bowden_edge_velocity_step.
 typedef struct bowden_edge_velocity_output_f64 {
-    // Velocity [channel unit/s], finite; zero until two counts are known.
+    // Velocity [channel unit/s], finite; zero until the position has changed twice.
     double velocity;
     // Return value of the step.
     bowden_result result;
@@ -1702,8 +1702,8 @@ typedef struct bowden_pid_settings_f32 {
     // this limit.
     float integral_limit;
     // Deadband [output unit], at least 0: the integral is frozen while |e| is at most
-    // this value. A deadband wider than the jump of the output prevents hunting due to
-    // static friction.
+    // this value. A deadband wider than the output jump prevents hunting due to static
+    // friction.
     float deadband;
     // Period of an output that wraps [output unit], such as 360 degrees; 0 if the
     // output does not wrap. Errors and changes are measured along the shorter way
@@ -1818,8 +1818,8 @@ typedef struct bowden_pid_settings_f64 {
     // this limit.
     double integral_limit;
     // Deadband [output unit], at least 0: the integral is frozen while |e| is at most
-    // this value. A deadband wider than the jump of the output prevents hunting due to
-    // static friction.
+    // this value. A deadband wider than the output jump prevents hunting due to static
+    // friction.
     double deadband;
     // Period of an output that wraps [output unit], such as 360 degrees; 0 if the
     // output does not wrap. Errors and changes are measured along the shorter way
@@ -1917,13 +1917,13 @@ typedef struct bowden_plausible_settings_f32 {
     // check. Do not check the rate of an angle that wraps.
     float rate;
     // Longest time between two readings of the sensor [s], including jitter; 0 if
-    // unknown. A repeated reading then counts as at most this old. This setting has no
-    // effect without a rate.
+    // unknown. A repeated reading is then treated as at most this old. This setting
+    // has no effect without a rate.
     float sample_period;
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
-    // check. Repetitions count only while the machine moves.
+    // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
-    // A dt that is longer, negative or not finite counts as this dt [s], at least 0.
+    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
     // With 0, the time after a negative or non-finite dt is unknown.
     float longest_dt;
 } bowden_plausible_settings_f32;
@@ -1972,13 +1972,13 @@ typedef struct bowden_plausible_settings_f64 {
     // check. Do not check the rate of an angle that wraps.
     double rate;
     // Longest time between two readings of the sensor [s], including jitter; 0 if
-    // unknown. A repeated reading then counts as at most this old. This setting has no
-    // effect without a rate.
+    // unknown. A repeated reading is then treated as at most this old. This setting
+    // has no effect without a rate.
     double sample_period;
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
-    // check. Repetitions count only while the machine moves.
+    // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
-    // A dt that is longer, negative or not finite counts as this dt [s], at least 0.
+    // This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
     // With 0, the time after a negative or non-finite dt is unknown.
     double longest_dt;
 } bowden_plausible_settings_f64;
@@ -2025,7 +2025,8 @@ typedef struct bowden_rates_f32 {
     uint64_t opaque[BOWDEN_RATES_F32_WORDS];
 } bowden_rates_f32;
 
-// Settings of the rates: two lags with the same time constant; see bowden_rates_step.
+// Settings of the velocity and acceleration estimates. Both lags have the same time
+// constant (see bowden_rates_step).
 //
 // By default the position does not wrap, and `longest_gap` is ten time constants. You
 // must set `time_constant`.
@@ -2037,8 +2038,8 @@ typedef struct bowden_rates_settings_f32 {
     // Period [channel unit] of a position that wraps, such as a counter; 0 if the
     // position does not wrap.
     float period;
-    // Longest gap between two good samples that the rates bridge [s]; 0 means ten time
-    // constants.
+    // Longest gap between two good samples that the estimates bridge [s]; 0 means ten
+    // time constants.
     float longest_gap;
 } bowden_rates_settings_f32;
 
@@ -2069,7 +2070,8 @@ typedef struct bowden_rates_f64 {
     uint64_t opaque[BOWDEN_RATES_F64_WORDS];
 } bowden_rates_f64;
 
-// Settings of the rates: two lags with the same time constant; see bowden_rates_step.
+// Settings of the velocity and acceleration estimates. Both lags have the same time
+// constant (see bowden_rates_step).
 //
 // By default the position does not wrap, and `longest_gap` is ten time constants. You
 // must set `time_constant`.
@@ -2081,8 +2083,8 @@ typedef struct bowden_rates_settings_f64 {
     // Period [channel unit] of a position that wraps, such as a counter; 0 if the
     // position does not wrap.
     double period;
-    // Longest gap between two good samples that the rates bridge [s]; 0 means ten time
-    // constants.
+    // Longest gap between two good samples that the estimates bridge [s]; 0 means ten
+    // time constants.
     double longest_gap;
 } bowden_rates_settings_f64;
 
@@ -2474,7 +2476,7 @@ bowden_result bowden_compensator_step_f32(struct bowden_compensator_f32 *compens
 //
 // Call this function between two steps, for example if the drive is off or another
 // controller adds a command. The hysteresis then follows this input. Only the last
-// report after a step counts. A command that is not finite changes nothing
+// report after a step is used. A command that is not finite changes nothing
 // (BOWDEN_RESULT_HELD).
 bowden_result bowden_compensator_applied_f32(struct bowden_compensator_f32 *compensator,
                                              float command);
@@ -2529,7 +2531,7 @@ bowden_result bowden_compensator_step_f64(struct bowden_compensator_f64 *compens
 //
 // Call this function between two steps, for example if the drive is off or another
 // controller adds a command. The hysteresis then follows this input. Only the last
-// report after a step counts. A command that is not finite changes nothing
+// report after a step is used. A command that is not finite changes nothing
 // (BOWDEN_RESULT_HELD).
 bowden_result bowden_compensator_applied_f64(struct bowden_compensator_f64 *compensator,
                                              double command);
@@ -2555,7 +2557,7 @@ bowden_result bowden_edge_velocity_init_f32(struct bowden_edge_velocity_f32 *edg
 //     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
 //     |v| <= count/(time since the last count)               at every other sample
 //
-// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
+// The result is BOWDEN_RESULT_SETTLING until the position has changed twice, and
 // BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
 // velocity (BOWDEN_RESULT_HELD).
 bowden_result bowden_edge_velocity_step_f32(struct bowden_edge_velocity_f32 *edges,
@@ -2575,7 +2577,7 @@ bowden_result bowden_edge_velocity_init_f64(struct bowden_edge_velocity_f64 *edg
 //     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
 //     |v| <= count/(time since the last count)               at every other sample
 //
-// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
+// The result is BOWDEN_RESULT_SETTLING until the position has changed twice, and
 // BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
 // velocity (BOWDEN_RESULT_HELD).
 bowden_result bowden_edge_velocity_step_f64(struct bowden_edge_velocity_f64 *edges,
@@ -3032,15 +3034,15 @@ bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 bowden_result bowden_pid_restore_f32(struct bowden_pid_f32 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
-// without a jump. A `command` or a sample that is not finite counts as a bad sample. A
-// latched safe command stays latched. `out` receives the applied command and may be
-// null.
+// without a jump. A `command` or a sample that is not finite is treated as a bad
+// sample. A latched safe command stays latched. `out` receives the applied command and
+// may be null.
 bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     float command,
                                     const struct bowden_pid_sample_f32 *sample,
                                     struct bowden_output_f32 *out);
 
-// Changes the settings of a running loop without a jump of the command. On an error
+// Changes the settings of a running loop without a jump in the command. On an error
 // the loop continues with the old settings. `about` may be null.
 //
 // If the new range excludes the applied command, the next command is the nearest one
@@ -3129,15 +3131,15 @@ bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 bowden_result bowden_pid_restore_f64(struct bowden_pid_f64 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
-// without a jump. A `command` or a sample that is not finite counts as a bad sample. A
-// latched safe command stays latched. `out` receives the applied command and may be
-// null.
+// without a jump. A `command` or a sample that is not finite is treated as a bad
+// sample. A latched safe command stays latched. `out` receives the applied command and
+// may be null.
 bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     double command,
                                     const struct bowden_pid_sample_f64 *sample,
                                     struct bowden_output_f64 *out);
 
-// Changes the settings of a running loop without a jump of the command. On an error
+// Changes the settings of a running loop without a jump in the command. On an error
 // the loop continues with the old settings. `about` may be null.
 //
 // If the new range excludes the applied command, the next command is the nearest one

@@ -6,7 +6,7 @@ use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::{bowden_output_f32, bowden_output_f64, limit_of_drive};
 use core_bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Applied, Output};
 
-/// Maximum number of regressors of an adaptive law.
+/// Maximum number of regressors in an adaptive law.
 pub const BOWDEN_REGRESSORS: usize = 4;
 /// Size in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F32_WORDS: usize = 56;
@@ -39,7 +39,7 @@ macro_rules! adaptive {
                 /// Regressors x_i [their own units]; in the paper, velocity and acceleration.
                 /// Entries beyond the number of regressors in the settings are ignored.
                 pub regressors: [$f; BOWDEN_REGRESSORS],
-                /// Feed-forward [command unit], added to the command of the law.
+                /// Feed-forward [command unit], added to the command of the adaptive law.
                 pub feed_forward: $f,
             }
 

@@ -100,7 +100,7 @@ macro_rules! settings {
             pub struct [<bowden_adaptive_settings_ $f>] {
                 /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Form of the law, one of bowden_form.
+                /// Form of the adaptive law, one of bowden_form.
                 pub form: u32,
                 /// Form as published: filter time constant of the error rate [s], at least 0,
                 /// usually 2 to 20 ms.

@@ -199,7 +199,7 @@ macro_rules! compensator {
             ///
             /// Call this function between two steps, for example if the drive is off or another
             /// controller adds a command. The hysteresis then follows this input. Only the last
-            /// report after a step counts. A command that is not finite changes nothing
+            /// report after a step is used. A command that is not finite changes nothing
             /// (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_applied_ $f>](

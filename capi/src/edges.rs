@@ -66,7 +66,7 @@ macro_rules! edges {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_edge_velocity_output_ $f>] {
-                /// Velocity [channel unit/s], finite; zero until two counts are known.
+                /// Velocity [channel unit/s], finite; zero until the position has changed twice.
                 pub velocity: $f,
                 /// Return value of the step.
                 pub result: bowden_result,
@@ -101,7 +101,7 @@ macro_rules! edges {
             ///     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
             ///     |v| <= count/(time since the last count)               at every other sample
             ///
-            /// The result is BOWDEN_RESULT_SETTLING until two counts are known, and
+            /// The result is BOWDEN_RESULT_SETTLING until the position has changed twice, and
             /// BOWDEN_RESULT_STOPPED after `longest_gap` without a count. A bad sample holds the
             /// velocity (BOWDEN_RESULT_HELD).
             #[no_mangle]

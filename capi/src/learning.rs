@@ -6,7 +6,7 @@ use crate::settings::{marked, Marked};
 use core_bowden::control::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 use core_bowden::{Error, Real};
 
-/// Maximum number of cells of a cycle.
+/// Maximum number of cells in a cycle.
 pub const BOWDEN_CELLS: usize = 65535;
 const _: () = assert!(BOWDEN_CELLS == IterativeLearning::<f32>::MOST_CELLS);
 /// Size in 64-bit words.

@@ -7,11 +7,11 @@ use core::slice;
 use core_bowden::effect::Motion;
 use core_bowden::model::{Model, ModelState, Sample, Source};
 
-/// Maximum number of terms of a model.
+/// Maximum number of terms in a model.
 pub const BOWDEN_TERMS: usize = 16;
-/// Maximum number of channels of a sample.
+/// Maximum number of channels in a sample.
 pub const BOWDEN_CHANNELS: usize = 16;
-/// Maximum number of bytes of a model. No model with BOWDEN_TERMS terms exceeds this limit.
+/// Maximum size of a model, in bytes. No model with BOWDEN_TERMS terms exceeds this limit.
 pub const BOWDEN_MODEL_BYTES: usize = 2048;
 /// Size in 64-bit words.
 pub const BOWDEN_MODEL_F32_WORDS: usize = 112;

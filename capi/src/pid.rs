@@ -289,9 +289,9 @@ macro_rules! pid {
             }
 
             /// Restarts the controller so that the command continues from `command` [command unit]
-            /// without a jump. A `command` or a sample that is not finite counts as a bad sample. A
-            /// latched safe command stays latched. `out` receives the applied command and may be
-            /// null.
+            /// without a jump. A `command` or a sample that is not finite is treated as a bad
+            /// sample. A latched safe command stays latched. `out` receives the applied command and
+            /// may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_resume_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -316,7 +316,7 @@ macro_rules! pid {
                 })())
             }
 
-            /// Changes the settings of a running loop without a jump of the command. On an error
+            /// Changes the settings of a running loop without a jump in the command. On an error
             /// the loop continues with the old settings. `about` may be null.
             ///
             /// If the new range excludes the applied command, the next command is the nearest one

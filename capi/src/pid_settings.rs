@@ -74,8 +74,8 @@ macro_rules! settings {
                 /// this limit.
                 pub integral_limit: $f,
                 /// Deadband [output unit], at least 0: the integral is frozen while |e| is at most
-                /// this value. A deadband wider than the jump of the output prevents hunting due to
-                /// static friction.
+                /// this value. A deadband wider than the output jump prevents hunting due to static
+                /// friction.
                 pub deadband: $f,
                 /// Period of an output that wraps [output unit], such as 360 degrees; 0 if the
                 /// output does not wrap. Errors and changes are measured along the shorter way

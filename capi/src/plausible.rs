@@ -72,13 +72,13 @@ macro_rules! plausible {
                 /// check. Do not check the rate of an angle that wraps.
                 pub rate: $f,
                 /// Longest time between two readings of the sensor [s], including jitter; 0 if
-                /// unknown. A repeated reading then counts as at most this old. This setting has no
-                /// effect without a rate.
+                /// unknown. A repeated reading is then treated as at most this old. This setting
+                /// has no effect without a rate.
                 pub sample_period: $f,
                 /// Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
-                /// check. Repetitions count only while the machine moves.
+                /// check. The check counts repetitions only while the machine moves.
                 pub stuck_after: u32,
-                /// A dt that is longer, negative or not finite counts as this dt [s], at least 0.
+                /// This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
                 /// With 0, the time after a negative or non-finite dt is unknown.
                 pub longest_dt: $f,
             }

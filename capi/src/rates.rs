@@ -27,7 +27,8 @@ macro_rules! rates {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of the rates: two lags with the same time constant; see bowden_rates_step.
+            /// Settings of the velocity and acceleration estimates. Both lags have the same time
+            /// constant (see bowden_rates_step).
             ///
             /// By default the position does not wrap, and `longest_gap` is ten time constants. You
             /// must set `time_constant`.
@@ -41,8 +42,8 @@ macro_rules! rates {
                 /// Period [channel unit] of a position that wraps, such as a counter; 0 if the
                 /// position does not wrap.
                 pub period: $f,
-                /// Longest gap between two good samples that the rates bridge [s]; 0 means ten time
-                /// constants.
+                /// Longest gap between two good samples that the estimates bridge [s]; 0 means ten
+                /// time constants.
                 pub longest_gap: $f,
             }
 

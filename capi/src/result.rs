@@ -13,10 +13,10 @@ use core_bowden::Error;
 pub enum bowden_result {
     /// Success. For a step: a good sample.
     Ok = 0,
-    /// A good sample, but the rates started from zero less than five time constants ago, or fewer
-    /// than two counts are known.
+    /// A good sample, but velocity and acceleration started from zero less than five time constants
+    /// ago, or the position has changed fewer than two times.
     Settling = 1,
-    /// A good position after an unknown time. The rates are held.
+    /// A good position after an unknown time. Velocity and acceleration are held.
     Resumed = 2,
     /// Adaptive law: the term of a bad regressor was omitted, and the estimates do not change.
     /// Iterative learning: the error of this sample, or of the cell before a jump, was ignored.
@@ -243,7 +243,7 @@ pub(crate) fn of_status(status: Status) -> (bowden_result, bowden_fault, u32) {
     (code, fault.into(), regressor)
 }
 
-/// The result code of a step of the rates, and the bad input.
+/// The result code of a step of the velocity and acceleration estimates, and the bad input.
 pub(crate) fn of_rates(status: RateStatus) -> (bowden_result, bowden_fault) {
     let code = match status {
         RateStatus::Good => bowden_result::Ok,

@@ -400,12 +400,12 @@ crate::checked::stored! {
 }
 
 impl<T: Real, const N: usize> CompensatorState<T, N> {
-    /// A new state, with the hysteresis at zero.
+    /// Initial state with the hysteresis at zero.
     pub fn new() -> Self {
         Self::from_hysteresis(BoucWenState::new())
     }
 
-    /// A new state that starts from the hysteresis state `eta` of the cable.
+    /// Initial state with the hysteresis state `eta` of the cable.
     ///
     /// # Errors
     /// The errors of [`BoucWenState::with_eta`]: `eta` is not finite or lies outside −1 to 1.

@@ -56,7 +56,7 @@ pub struct LoopSample<'a, T> {
     pub measured: T,
     /// Measured distal velocity \[rad/s\]; only PIV reads it.
     pub velocity: T,
-    /// Regressors of an adaptive law; a missing regressor counts as NaN.
+    /// Regressors of an adaptive law; a missing regressor is treated as NaN.
     pub regressors: &'a [T],
     /// Feed-forward, added to the command before the limits \[command unit\].
     pub feed_forward: T,
@@ -100,7 +100,7 @@ pub trait Controller<T: Real> {
     /// before its first step.
     type State: Copy;
 
-    /// A new state, before the first sample.
+    /// Initial state, before the first sample.
     fn start(&self) -> Self::State;
 
     /// Processes one sample and returns the command \[command unit\], which is finite and within

@@ -58,19 +58,19 @@ pub fn s_rate<T: Real>(e_rate: T, lambda: T, e: T) -> T {
     e_rate + lambda * e
 }
 
-/// First part of (23): `-k·s + y_r`.
+/// First term of (23): `-k·s + y_r`.
 #[inline]
 pub fn proportional<T: Real>(k: T, s: T, y_r: T) -> T {
     -k * s + y_r
 }
 
-/// First and second part of (23): `proportional - (z + e')/lambda`.
+/// The first and second terms of (23): `proportional - (z + e')/lambda`.
 #[inline]
 pub fn damped<T: Real>(proportional: T, z: T, e_rate: T, lambda: T) -> T {
     proportional - (e_rate + z) / lambda
 }
 
-/// First and second part of (23) in the first-order form, where `-y_r'` replaces e'.
+/// The first and second terms of (23) in the first-order form, where `-y_r'` replaces e'.
 #[inline]
 pub fn first_order_damped<T: Real>(proportional: T, z: T, y_r_rate: T, lambda: T) -> T {
     proportional + (y_r_rate - z) / lambda
@@ -82,19 +82,19 @@ pub fn virtual_command<T: Real>(damped: T, theta_x: T, delta_hat: T, smooth_sign
     damped + theta_x - delta_hat * smooth_sign
 }
 
-/// Excitation of beta_hat in (24): `v = -lambda·s·u_bar`. `lambda_s` is `lambda·s`.
+/// Driving term of beta_hat in (24): `v = -lambda·s·u_bar`. `lambda_s` is `lambda·s`.
 #[inline]
 pub fn beta_excitation<T: Real>(lambda_s: T, u_bar: T) -> T {
     -lambda_s * u_bar
 }
 
-/// Excitation of delta_hat in (25): `v = lambda·s·T(s/epsilon)`.
+/// Driving term of delta_hat in (25): `v = lambda·s·T(s/epsilon)`.
 #[inline]
 pub fn delta_excitation<T: Real>(lambda_s: T, smooth_sign: T) -> T {
     lambda_s * smooth_sign
 }
 
-/// Excitation of theta_hat_i in (26): `v = -lambda·s·x_i`.
+/// Driving term of theta_hat_i in (26): `v = -lambda·s·x_i`.
 #[inline]
 pub fn theta_excitation<T: Real>(lambda_s: T, x: T) -> T {
     -lambda_s * x

@@ -19,7 +19,7 @@
 //!
 //! The learned values are clamped, so the feed-forward is within ±limit for any input.
 //! *Convergence* depends on the gain, the lead, the filter and the loop; see
-//! `IterativeLearningConvergence` of `bowden-bound`.
+//! `IterativeLearningConvergence` in the crate `bowden-bound`.
 //!
 //! Sources: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 //! Control Systems Magazine* 26(3), 2006; J. Zhang, C. Cheah, S. Collins, "Experimental comparison
@@ -204,7 +204,7 @@ impl<T: Real> IterativeLearning<T> {
         Ok(())
     }
 
-    /// A new state with two buffers of one number per cell; both buffers are set to zero.
+    /// Initial state with two buffers of one number per cell. Both buffers are set to zero.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the buffers differ in length; otherwise the errors of
@@ -255,8 +255,9 @@ impl<T: Real> IterativeLearning<T> {
     /// last feed-forward is held.
     ///
     /// Call this method at every sample, before the controller. For any state and buffers, the
-    /// feed-forward is finite and within ±limit. A slew-rate limit in the controller's
-    /// [`Limits`](crate::control::Limits) smooths the jump that follows a jump of the phase.
+    /// feed-forward is finite and within ±limit. If the phase jumps, the feed-forward jumps too.
+    /// Set a slew-rate limit in the controller's [`Limits`](crate::control::Limits) to limit the
+    /// rate of the command.
     ///
     /// - A phase outside 0 to 1 holds the feed-forward. The controller does not detect this fault,
     ///   so its fallback does not act. If the phase signal can fail, omit the feed-forward after a

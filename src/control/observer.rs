@@ -15,8 +15,8 @@
 //!
 //! Add the estimate to a controller's `feed_forward`. The limit of the observer bounds the estimate
 //! for any input. You can also add the command of the nominal plant for the reference
-//! ([`NominalPlant::feed_forward`]). Do not add the command of a
-//! [`Compensator`](super::Compensator), because the friction would be compensated twice.
+//! ([`NominalPlant::feed_forward`]). Do not also add the command of a
+//! [`Compensator`](super::Compensator). Otherwise the friction is compensated twice.
 //!
 //! Source: T. Umeno, Y. Hori, "Robust speed control of DC servomotors using modern two
 //! degrees-of-freedom controller design", *IEEE Trans. Industrial Electronics* 38(5), 1991.

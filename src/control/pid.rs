@@ -164,7 +164,7 @@ impl<T: Real> Pid<T> {
     ///
     /// Pass the result to [`applied`](Self::applied) of the outer loop. If the inner loop has
     /// positive gains and its command is at the upper limit, a larger output of the outer loop has
-    /// no effect. A command that equals a limit of the range counts as limited.
+    /// no effect. A command that equals a limit of the range is treated as limited.
     #[must_use]
     pub fn saturation(&self, state: &PidState<T>) -> Applied<T> {
         let (command, limits) = (state.command(), &self.settings.limits);
@@ -223,7 +223,7 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// Continues a running state with other settings, without a jump of the command.
+    /// Continues a running state with other settings, without a jump in the command.
     ///
     /// All settings may change. The integral changes only as far as necessary: at the last good
     /// sample, the new terms add up to the applied command. If a limit cuts off both the old and

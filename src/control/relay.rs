@@ -26,9 +26,9 @@
 //!   `dt` longer. A sampled controller has the same average delay, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the experiment fails with `OutputOutOfRange` or `NoOscillation`.
-//! - **Duration.** The experiment ends within `longest_time`, because bad samples count as well. A
-//!   sample without a usable `dt` counts as `longest_dt`. A failure latches the safe command until
-//!   [`RelayState::acknowledge`] is called.
+//! - **Duration.** The experiment ends within `longest_time`, because the time of bad samples is
+//!   included. A sample without a usable `dt` adds `longest_dt`. A failure latches the safe command
+//!   until [`RelayState::acknowledge`] is called.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
 //! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay

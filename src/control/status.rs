@@ -92,8 +92,8 @@ crate::checked! {
 
     /// Applies the safe command \[command unit\] from the `after`-th consecutive bad sample onward.
     ///
-    /// The safe command ignores the slew-rate limit, because it must act at once. The first good
-    /// sample after an acknowledgement starts from the safe command.
+    /// The safe command ignores the slew-rate limit, because it must act immediately. The first
+    /// good sample after an acknowledgement starts from the safe command.
     ///
     /// # Errors
     /// [`Error::NonFinite`] with `"safe command"`; [`Error::OutOfRange`] with `"after"` if `after`

@@ -22,8 +22,8 @@ pub(crate) fn saturate<T: Real>(value: T) -> T {
 /// `[sum, carry]` after one more step, where `carry` is the rounding error of the sum
 /// ([`Compensated`](crate::signal::Compensated)). The result is finite for finite numbers.
 ///
-/// A plain `f32` sum stops changing once an increment is less than half an ulp of the sum, for
-/// example after a few hours of operation or on a slow approach to a limit.
+/// A plain `f32` sum stops changing once an increment is less than half an ulp of the sum. This
+/// occurs, for example, after a few hours of operation or on a slow approach to a limit.
 #[inline]
 pub(super) fn add<T: Real>([sum, carry]: [T; 2], step: T) -> [T; 2] {
     let (total, owed) = two_sum(sum, saturate(step + carry));

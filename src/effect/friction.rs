@@ -83,7 +83,7 @@ effect! {
 }
 
 effect! {
-    /// Coulomb friction, smoothed over the velocity `v_e`.
+    /// Coulomb friction, smoothed at speeds below about `v_e`.
     ///
     /// Formula: `tanh(v/v_e)`. The width v_e is a shape parameter, because a fixed width that is
     /// too small would produce a spurious Stribeck effect in a fit.

@@ -85,7 +85,7 @@ crate::checked::stored! {
 }
 
 impl<T> EffectState<T> {
-    /// A new state, before the first sample.
+    /// Initial state, before the first sample.
     pub const fn new() -> Self {
         Self { memory: None }
     }

@@ -128,9 +128,9 @@ macro_rules! effects {
 
             /// The regressor at one sample, without the gain.
             ///
-            /// The result is finite for finite inputs. If a number that the effect reads is not
-            /// finite, or a `dt` that it reads is negative, the result is 0 and `state` is
-            /// unchanged.
+            /// The result is finite for finite inputs. If an input that the effect reads is not
+            /// finite, or if the effect reads `dt` and `dt` is negative, the result is 0 and
+            /// `state` is unchanged.
             #[inline]
             pub fn regressor(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
                 match &self.0 {

@@ -190,13 +190,13 @@ effect! {
 }
 
 effect! {
-    /// One segment of a piecewise linear curve over the position.
+    /// One segment of a piecewise linear curve of the position.
     ///
     /// Formula: `clip((x − from)/width, 0, 1)`. A curve through the points `(x_1, f_1)` to
     /// `(x_N, f_N)` is the sum of an offset and N − 1 segments:
     /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`. The curve is constant
     /// beyond its ends. [`Term::curve`](crate::model::Term::curve) returns these N terms. For a
-    /// curve over the load, use the channel of the load as the source.
+    /// curve of the load, use the channel of the load as the source.
     ///
     /// The value of a segment is between 0 and 1 for any input. A segment can therefore be a
     /// regressor of the [adaptive law](crate::control::Adaptive), which then estimates the curve.
@@ -221,7 +221,7 @@ effect! {
 }
 
 effect! {
-    /// One segment of a piecewise linear curve over the velocity.
+    /// One segment of a piecewise linear curve of the velocity.
     ///
     /// Formula: `clip((v − from)/width, 0, 1)`. Source: see
     /// [`CurvePosition`](super::CurvePosition).

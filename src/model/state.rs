@@ -27,12 +27,12 @@ crate::checked::stored! {
 }
 
 impl<T: Real, const N: usize> ModelState<T, N> {
-    /// A new state, before the first sample.
+    /// Initial state, before the first sample.
     pub fn new() -> Self {
         Self::from_hysteresis(BoucWenState::new())
     }
 
-    /// A new state that starts at the hysteresis state `eta`.
+    /// Initial state with the hysteresis state `eta`.
     ///
     /// # Errors
     /// The same as [`BoucWenState::with_eta`], if `eta` is not a number in [-1, 1].

@@ -112,7 +112,7 @@ impl<T: Real> Derivative<T> {
 }
 
 impl<T: Real> DerivativeState<T> {
-    /// A new state, before the first sample.
+    /// Initial state, before the first sample.
     #[inline]
     pub const fn new() -> Self {
         Self {

@@ -234,7 +234,7 @@ impl<T: Real> EdgeVelocity<T> {
 }
 
 impl<T: Real> EdgeVelocityState<T> {
-    /// A new state, before the first sample.
+    /// Initial state, before the first sample.
     #[inline]
     pub const fn new() -> Self {
         Self {

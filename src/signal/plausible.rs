@@ -97,12 +97,11 @@ crate::checked! {
 
     /// The same check with a positive limit `rate` \[signal unit/s\] on the rate of change.
     ///
-    /// Do not use a rate limit for an angle that wraps around, because the check would reject each
-    /// wrap. Instead, check the range of the velocity from [`Rates`](crate::signal::Rates) with its
-    /// period.
+    /// For an angle that wraps around, a rate limit would reject each wrap. Instead, check the
+    /// range of the velocity from [`Rates`](crate::signal::Rates) with its period.
     ///
-    /// A sensor may be slower than the loop, so a repeated reading counts as the same measurement.
-    /// The next reading may differ by `rate` times the time since the last *change*.
+    /// A sensor may be slower than the loop, so a repeated reading is treated as the same
+    /// measurement. The next reading may differ by `rate` times the time since the last *change*.
     ///
     /// After a reading has repeated for `t` seconds, the check also accepts a spike of up to
     /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`.
@@ -172,11 +171,12 @@ impl<T: Real> Plausible<T> {
     /// The same check, which also rejects a stuck sensor after `samples` repetitions of a reading;
     /// 0 disables this check.
     ///
-    /// A sensor counts as stuck until its reading changes. If this prevents the machine from
+    /// Each sample is then rejected until the reading changes. If this prevents the machine from
     /// moving, start with a new [`PlausibleState`].
     ///
-    /// Repetitions count only while the machine moves. A coarse encoder repeats its reading at low
-    /// speed, so `samples` must be larger than the number of samples per count at that speed.
+    /// The check counts repetitions only while the machine moves. A coarse encoder repeats its
+    /// reading at low speed, so `samples` must be larger than the number of samples per count at
+    /// that speed.
     #[must_use]
     pub const fn with_stuck_after(self, samples: u32) -> Self {
         Self {
@@ -263,7 +263,7 @@ impl<T: Real> Plausible<T> {
 }
 
 impl<T: Real> PlausibleState<T> {
-    /// A new state. The first sample may lie anywhere in the range.
+    /// Initial state. The first sample may lie anywhere in the range.
     pub const fn new() -> Self {
         Self {
             last: None,

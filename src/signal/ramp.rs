@@ -8,8 +8,8 @@ crate::checked::stored! {
     /// A reference ramp: a rate limit, followed by a first-order lag.
     ///
     /// The ramp is `r⁺ = r + clamp(wanted − r, ±rate·dt)`, and the reference is
-    /// `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. With a suitable rate, a step of the reference does not
-    /// saturate the drive.
+    /// `y⁺ = y + dt/(tau + dt)·(r⁺ − y)`. With a suitable rate, a reference step does not saturate
+    /// the drive.
     ///
     /// ```
     /// use bowden::signal::{Ramp, RampState};
@@ -75,8 +75,8 @@ impl<T: Real> Ramp<T> {
     /// The reference \[signal unit\] `dt` \[s\] later, on its way to `wanted` \[signal unit\].
     ///
     /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
-    /// reference unchanged. The reference never passes a constant `wanted`. If `wanted` reverses
-    /// during the ramp, the lag may overshoot it by up to `rate·time_constant`.
+    /// reference unchanged. The reference never overshoots a constant `wanted`. If `wanted`
+    /// reverses during the ramp, the lag may overshoot it by up to `rate·time_constant`.
     #[inline]
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {

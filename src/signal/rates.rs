@@ -12,8 +12,8 @@ const LONGEST_GAP: f64 = 10.0;
 /// Time constants after which rates that started at zero count as settled.
 const SETTLING: f64 = 5.0;
 
-/// Corner of [`Rates::for_cutoff`] \[rad/s\] over the cut-off frequency of the fit \[Hz\]. The
-/// corner is at 2.5 times the cut-off frequency.
+/// Corner of [`Rates::for_cutoff`] \[rad/s\] divided by the cut-off frequency of the fit \[Hz\].
+/// The corner is at 2.5 times the cut-off frequency.
 const CORNER: f64 = 2.0 * core::f64::consts::PI * 2.5;
 
 crate::checked::stored! {
@@ -37,21 +37,21 @@ crate::checked::stored! {
     /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both values are smaller if tau
     /// is not much larger than h.
     ///
-    /// * **First sample**: the rates start at zero. On an axis that moves at the velocity V, the
-    ///   computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a pulse of
-    ///   `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time constants.
+    /// * **First sample**: velocity and acceleration start at zero. On an axis that moves at the
+    ///   velocity V, the computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a
+    ///   pulse of `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time constants.
     /// * **Bad samples**: if the position is not finite, or if `dt` is not positive and finite, the
     ///   last good motion is held. The status reports the fault.
-    /// * **Gaps**: h is the time since the last good sample, including the time of bad samples.
-    ///   After more than the [longest gap](Self::with_longest_gap), the rates restart at zero.
-    ///   After a `dt` that is negative or not finite, the time is unknown. The next good sample
-    ///   then only sets the position, and the rates are held.
+    /// * **Gaps**: h is the time since the last good sample, including the time of bad samples. If
+    ///   h exceeds the [longest gap](Self::with_longest_gap), velocity and acceleration restart at
+    ///   zero. After a `dt` that is negative or not finite, the time is unknown. The next good
+    ///   sample then only sets the position, and velocity and acceleration are held.
     /// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
     /// * **Long runs**: a position in `f32` has a resolution of up to `2⁻²³·|x|`, which appears as
-    ///   noise in the rates. At 1000 rad the resolution is 6e-5 rad, so with tau = 10 ms the noise
-    ///   is up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously, use the position
-    ///   modulo its period. An integer then counts the turns, and only the returned position has
-    ///   this rounding error.
+    ///   noise in velocity and acceleration. At 1000 rad the resolution is 6e-5 rad, so with tau =
+    ///   10 ms the noise is up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously,
+    ///   use the position modulo its period. An integer then counts the turns, and only the
+    ///   returned position has this rounding error.
     ///
     /// ```
     /// use bowden::signal::{Rates, RatesState, RateStatus};
@@ -81,22 +81,24 @@ crate::checked::stored! {
 }
 
 crate::data! {
-    /// Validity of the rates from [`Rates`] or [`EdgeVelocity`](super::EdgeVelocity).
+    /// Validity of the velocity and acceleration from [`Rates`] or
+    /// [`EdgeVelocity`](super::EdgeVelocity).
     #[derive(Eq, Hash)]
     pub enum RateStatus {
-        /// A good sample, and the rates have settled. From an
-        /// [`EdgeVelocity`](super::EdgeVelocity): two counts and the time between them are known.
+        /// A good sample, and velocity and acceleration have settled. From an
+        /// [`EdgeVelocity`](super::EdgeVelocity): the position has changed at least twice, and the
+        /// time between two changes is known.
         Good,
-        /// A good sample, but the rates started from zero less than five time constants ago. From
-        /// an [`EdgeVelocity`](super::EdgeVelocity): two counts and the time between them are not
-        /// yet known.
+        /// A good sample, but velocity and acceleration started from zero less than five time
+        /// constants ago. From an [`EdgeVelocity`](super::EdgeVelocity): the time between two
+        /// changes of the position is not yet known.
         Settling,
-        /// A good sample after an unknown time. [`Rates`] holds the rates.
+        /// A good sample after an unknown time. [`Rates`] holds velocity and acceleration.
         Resumed,
         /// No count for longer than the longest gap. The velocity of an
         /// [`EdgeVelocity`](super::EdgeVelocity) is zero.
         Stopped,
-        /// A bad sample. The last good rates are held.
+        /// A bad sample. The last good velocity and acceleration are held.
         Held(Fault),
     }
 
@@ -111,7 +113,7 @@ crate::data! {
 }
 
 crate::checked::stored! {
-    /// State of [`Rates`]: the last good sample, the rates and the elapsed time.
+    /// State of [`Rates`]: the last good sample, velocity, acceleration and the elapsed time.
     #[derive(Default)]
     pub struct RatesState<T> {
         /// The last good position as received, not unwrapped.
@@ -123,7 +125,8 @@ crate::checked::stored! {
         gap: T,
         /// Whether an unknown time has passed since the last good sample.
         time_unknown: bool,
-        /// Time since the rates started at zero. It is constant once they have settled.
+        /// Time since velocity and acceleration started at zero. It is constant once they have
+        /// settled.
         age: T,
     }
     => {
@@ -147,7 +150,8 @@ crate::checked! {
     /// Rates with `time_constant > 0` \[s\].
     ///
     /// The longest gap is ten time constants. If the sample time is longer, use
-    /// [`with_longest_gap`](Self::with_longest_gap). Otherwise, every sample restarts the rates.
+    /// [`with_longest_gap`](Self::with_longest_gap). Otherwise, velocity and acceleration restart
+    /// at every sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -161,12 +165,12 @@ crate::checked! {
 
     /// Rates for a model that was fitted with the cut-off frequency `cutoff` \[Hz\].
     ///
-    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. These
-    /// rates have the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its
+    /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. This
+    /// filter has the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its
     /// amplitude and a lag of 22°, and the acceleration has 86 % of its amplitude and a lag of 44°.
     /// The delays are `0.064/f_c` and `0.127/f_c`. The error of the model is larger with these
-    /// causal rates, because the smoother of the fit has zero phase. A shorter tau reduces the
-    /// delay but increases the noise.
+    /// causal derivatives, because the smoother of the fit has zero phase. A shorter tau reduces
+    /// the delay but increases the noise.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. The second error includes a
@@ -183,13 +187,13 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// The same rates for positions modulo `period > 0` \[channel unit\], such as those of a
+    /// The same estimator for positions modulo `period > 0` \[channel unit\], such as those of a
     /// counter.
     ///
     /// The position of the motion is unwrapped, so it continues when the counter wraps. Between two
     /// good samples the axis must move by less than half a period, which
     /// `period > 2·|v|·longest_gap` ensures for every gap. Beyond 2³¹ turns, the position is wrong
-    /// by whole periods, but the rates are still correct.
+    /// by whole periods, but velocity and acceleration are still correct.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
@@ -199,7 +203,7 @@ crate::checked! {
         Ok(Rates { period, ..rates })
     }
 
-    /// The same rates with another longest gap \[s\], which must be positive.
+    /// The same estimator with another longest gap \[s\], which must be positive.
     ///
     /// The longest gap must exceed the longest `dt` of the loop in normal operation.
     ///
@@ -324,7 +328,7 @@ impl<T: Real> Rates<T> {
 }
 
 impl<T: Real> RatesState<T> {
-    /// A new state, before the first sample.
+    /// Initial state, before the first sample.
     #[inline]
     pub fn new() -> Self {
         Self::default()

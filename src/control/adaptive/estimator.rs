@@ -72,7 +72,7 @@ crate::data! {
     /// Adaptation of one estimate `p`: equations (24) to (26) in sampled time, with bounds.
     ///
     /// The update is `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, clamped to `[low, high]`.
-    /// Here v is the excitation (`-lambda·s·x` for a regressor x). The leakage is implicit, so it
+    /// Here v is the driving term (`-lambda·s·x` for a regressor x). The leakage is implicit, so it
     /// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
     /// not depend on h. Compensated summation prevents slow leakage from stalling in `f32`.
     ///
@@ -149,7 +149,7 @@ impl<T: Real> Estimator<T> {
         self.low <= value && value <= self.high
     }
 
-    /// The estimate after `dt` \[s\] with the excitation `v`, within its bounds. If the estimate
+    /// The estimate after `dt` \[s\] with the driving term `v`, within its bounds. If the estimate
     /// overflows, its carry is not finite.
     #[inline]
     pub(crate) fn update(&self, p: Compensated<T>, dt: T, v: T) -> Compensated<T> {

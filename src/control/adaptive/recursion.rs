@@ -39,9 +39,9 @@ pub struct Disturbance<T> {
 /// - `z⁺ = z + h·(s - lambda·z)`
 ///
 /// The equations hold for any sequence of steps `h`, as long as the command and z are not at a
-/// limit. The box theorem (`PeakSampled` of `bowden-bound`) applies to this recursion. From bounds
-/// on g, delta_hat, `|w|` and `|xi|`, the theorem gives a box in s and z. Errors that start inside
-/// the box stay inside it.
+/// limit. The box theorem (`PeakSampled` in the crate `bowden-bound`) applies to this recursion.
+/// From bounds on g, delta_hat, `|w|` and `|xi|`, the theorem gives a box in s and z. Errors that
+/// start inside the box stay inside it.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};

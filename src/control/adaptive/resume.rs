@@ -11,14 +11,14 @@ use crate::Real;
 const HALVINGS: (u32, u32) = (26, 56);
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
-    /// A new state whose first step on `input` gives the command `output` \[command unit\].
+    /// State whose first step on `input` gives the command `output` \[command unit\].
     ///
     /// The estimates have their initial values. The accumulated error z is chosen so that the
     /// adaptive law and the feed-forward together give `output`. No such z exists if beta_hat is
     /// zero, z would exceed its limit, the command limits exclude `output`, or the sample is bad.
     /// In these cases, the command jumps, and only the slew-rate limit or the lag smooths the jump.
     ///
-    /// The new state has no fault. For a running state, use [`Adaptive::resume`].
+    /// This state has no fault. For a running state, use [`Adaptive::resume`].
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState};
@@ -45,7 +45,7 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// Continues a running state with other settings, without a jump of the command.
+    /// Continues a running state with other settings, without a jump in the command.
     ///
     /// The estimates are clamped to their new bounds. The accumulated error is chosen so that the
     /// next step on `input` gives the applied command, as in [`AdaptiveState::resume_from`].
@@ -79,8 +79,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Restarts a state so that the next step on `input` gives the command `output` \[command
     /// unit\].
     ///
-    /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
-    /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
+    /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample is
+    /// treated as a bad sample. A latched safe command stays latched, and the fault counter is
+    /// kept.
     ///
     /// The first-order form computes the rate of the reference with `input.dt`. If this `dt` is not
     /// positive and finite, it uses the `step` of the form instead.

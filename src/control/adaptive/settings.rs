@@ -12,9 +12,10 @@ crate::data! {
     pub enum Form<T> {
         /// Equation (23) as published, with e' as a filtered difference of the error.
         ///
-        /// This form is for a plant with inertia, whose output cannot follow the command at once.
-        /// On a static plant with one sample of delay, it diverges unless `g·k < 1` with g =
-        /// alpha·beta_hat. Without the filter, the condition is `g·(k + 2/(lambda·h)) < 1`.
+        /// This form is for a plant with inertia, whose output cannot follow the command
+        /// immediately. On a static plant with one sample of delay, this form diverges unless
+        /// `g·k < 1` with g = alpha·beta_hat. Without the filter, the condition is
+        /// `g·(k + 2/(lambda·h)) < 1`.
         AsPublished {
             /// Time constant of the filter of e' \[s\], not negative; usually 2 to 20 ms.
             time_constant: T,
@@ -23,7 +24,7 @@ crate::data! {
         ///
         /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. This form is for a plant that responds within a
         /// sample (a stiff drive, a blocked joint), where it is equivalent to (22). On a plant with
-        /// inertia, it diverges.
+        /// inertia, this form diverges.
         FirstOrder {
             /// Longest intended sampling period \[s\], positive.
             step: T,
@@ -224,7 +225,8 @@ crate::checked! {
 }
 
 impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
-    /// Settings for a machine, with fixed estimates.
+    /// Settings for hardware: with command limits, a `longest_dt` and a fallback. All estimates are
+    /// fixed.
     ///
     /// `gain` is k, `lambda` is in \[1/s\], `epsilon` in \[N·m\] and `longest_dt` in \[s\].
     /// beta_hat is one; delta_hat and theta_hat are zero.
@@ -269,9 +271,9 @@ impl<T: Real, const N: usize> AdaptiveSettings<T, N> {
     ///
     /// The result is `1/(lambda·max(1, g⁺·(k + delta_max/epsilon)))`, where g⁺ is
     /// `plant_gain·beta.high`. Up to this `dt`, the next s is a non-decreasing function of s, and
-    /// the box theorem (`PeakSampled` of `bowden-bound`) holds. The method also accepts settings
-    /// that [`Adaptive::try_new`](super::Adaptive::try_new) rejects, but their gains must be
-    /// positive and finite.
+    /// the box theorem (`PeakSampled` in the crate `bowden-bound`) holds. The method also accepts
+    /// settings that [`Adaptive::try_new`](super::Adaptive::try_new) rejects, but their gains must
+    /// be positive and finite.
     #[must_use]
     pub fn largest_step(&self) -> Option<T> {
         let Form::FirstOrder { plant_gain, .. } = self.form else {

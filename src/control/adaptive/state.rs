@@ -138,8 +138,8 @@ impl End {
 }
 
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
-    /// A new state with the initial estimates and zero accumulated error. The command is the value
-    /// nearest to zero within the limits.
+    /// Initial state with the initial estimates and zero accumulated error. The command is the
+    /// value nearest to zero within the limits.
     pub fn new(law: &Adaptive<T, N>) -> Self {
         let settings = law.settings();
         let command = settings.limits.clamp(T::ZERO);

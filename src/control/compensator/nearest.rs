@@ -42,9 +42,9 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// - sigma is lowered to `|gain|/(2·|kappa_eta|·rho)`;
     /// - if this value is below 1/2, sigma becomes 1/2 and rho becomes `|gain|/|kappa_eta|`.
     ///
-    /// Output stages (delay, lag) and input stages (a play in series) are excluded. The other terms
-    /// keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor) still refers
-    /// to the model's indices.
+    /// The feed-forward omits output stages (delay, lag) and input stages (a play in series). The
+    /// other terms keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor)
+    /// still refers to the model's indices.
     ///
     /// For this command, the identified model does not produce exactly the desired output. To
     /// measure the error, run the feed-forward and the identified model in series, as

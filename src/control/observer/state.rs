@@ -62,11 +62,11 @@ pub(super) fn lag<T: Real>(state: Compensated<T>, target: T, share: T) -> Compen
 }
 
 impl<T: Real> ObserverState<T> {
-    /// A new state, before the first sample; its estimate is zero.
+    /// Initial state, before the first sample. Its estimate is zero.
     ///
     /// The observer treats the first good sample as a steady state. The estimate is then the
-    /// applied command minus the command that the nominal plant needs at rest. After the drive was
-    /// off, use a new state, because earlier commands did not reach the motor.
+    /// applied command minus the command that the nominal plant needs at rest. After the drive has
+    /// been off, start from the initial state, because earlier commands did not reach the motor.
     pub const fn new() -> Self {
         Self {
             lags: None,

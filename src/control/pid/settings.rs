@@ -27,13 +27,12 @@ crate::data! {
 }
 
 impl<T: Real> DerivativeSource<T> {
-    /// Derivative of the error, as in (14): a step of the reference causes a derivative kick.
+    /// Derivative of the error, as in (14): a reference step causes a derivative kick.
     pub const fn on_error() -> Self {
         Self::Rate { weight: T::ONE }
     }
 
-    /// Derivative of the measurement, the default: a step of the reference causes no derivative
-    /// kick.
+    /// Derivative of the measurement, the default: a reference step causes no derivative kick.
     pub const fn on_measurement() -> Self {
         Self::Rate { weight: T::ZERO }
     }

@@ -88,7 +88,7 @@ impl<T: Real> Last<T> {
 }
 
 impl<T: Real> PidState<T> {
-    /// A new state, before the first sample; its command is zero.
+    /// Initial state, before the first sample. Its command is zero.
     ///
     /// A slew-rate limit starts from this command. If another command is applied, use
     /// [`PidState::resume_from`].
@@ -109,8 +109,8 @@ impl<T: Real> PidState<T> {
     /// zero. The next step at the same sample adds only one step of the integral. `at.dt` is
     /// ignored.
     ///
-    /// A number that is not finite, or an overflow, counts as a bad sample and returns a fault. A
-    /// latched safe command stays latched, and the fault counter is kept.
+    /// A number that is not finite, or an overflow, is treated as a bad sample and returns a fault.
+    /// A latched safe command stays latched, and the fault counter is kept.
     ///
     /// The integral is the difference between `output` and the other terms at `at`. With `k_i` = 0,
     /// the integral then returns to zero; see [`PidSettings::k_i`](super::PidSettings::k_i).

@@ -107,7 +107,7 @@ impl<T: Real> Mean<T> {
 }
 
 impl<T: Real> RelayState<T> {
-    /// A new state, before the first sample; its command is zero.
+    /// Initial state, before the first sample. Its command is zero.
     pub const fn new() -> Self {
         Self::starting_from(T::ZERO)
     }
