@@ -107,8 +107,10 @@ fn any_settings_take_over_from_any_others_without_a_jump() {
         let fades = out.terms.derivative.abs() * 1e-9 / 0.02;
         let integral = 320.0 * out.terms.error.abs() * 1e-9;
         // Without k_i the integral has a time constant of 1 s.
-        let returns =
-            f64::from(u8::from(to.settings().k_i == 0.0)) * out.terms.integral.abs() * 1e-9;
+        let returns = match to.settings().k_i == 0.0 {
+            true => out.terms.integral.abs() * 1e-9,
+            false => 0.0,
+        };
         near(out.command, before, fades + integral + returns + 1e-11);
     }
 }

@@ -34,8 +34,10 @@ impl Random {
 
     /// -1, or 1.
     fn sign(&mut self) -> f64 {
-        let up = self.within(-1.0, 1.0) >= 0.0;
-        f64::from(u8::from(up)) * 2.0 - 1.0
+        match self.within(-1.0, 1.0) < 0.0 {
+            true => -1.0,
+            false => 1.0,
+        }
     }
 
     fn smooth_sign(&mut self) -> SmoothSign {
