@@ -56,7 +56,7 @@ fn names_that_the_steps_of_an_encoder_explain_are_not_firm() {
     );
     closed.says(&[
         "`x` has a resolution of 0.15 mm",
-        "terms that depend on its velocity or its reversals, here ",
+        "Terms that depend on its velocity or its reversals, here ",
         "are uncertain",
     ]);
     closed.text();
