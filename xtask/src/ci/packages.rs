@@ -113,9 +113,12 @@ fn user(shell: &Shell, core: &Path) -> Done {
     let folder = shell.scratch.join("user");
     fs::create_dir_all(folder.join("src"))?;
     let readme = fs::read_to_string(shell.root.join("README.md"))?;
-    let block = |language| readme::block(&readme, language, "## In firmware");
-    let (Some(program), Some(dependencies)) = (block("rust"), block("toml")) else {
-        return fail("README.md has no program or no dependencies under: In firmware");
+    let program = readme::block(&readme, "rust", "## In firmware");
+    // Add `bowden = …` to your dependencies: the first code of the section.
+    let section = readme.split_once("## In firmware");
+    let dependency = section.and_then(|(_, text)| text.split('`').nth(1));
+    let (Some(program), Some(dependency)) = (program, dependency) else {
+        return fail("README.md has no program or no dependency under: In firmware");
     };
     // The README's line has a path to a clone next to the project; here it is the package.
     fs::rename(core, shell.scratch.join("bowden"))?;
@@ -123,7 +126,7 @@ fn user(shell: &Shell, core: &Path) -> Done {
     fs::write(folder.join("src/main.rs"), program)?;
     fs::write(
         folder.join("Cargo.toml"),
-        format!("{manifest}{dependencies}"),
+        format!("{manifest}[dependencies]\n{dependency}\n"),
     )?;
     println!("    in an empty project:");
     shell.within(&folder).run("cargo run --quiet")?;
