@@ -33,19 +33,12 @@ fn target(tests: &Path, file: &Path) -> Option<String> {
     Some(name.to_str()?.trim_end_matches(".rs").to_owned())
 }
 
-/// Runs the slow tests that name the step, in the profile in which `cargo test` has built them:
-/// with overflow checks, and hardly slower than the release profile.
+/// Runs the slow tests that name the step, as `cargo test` has built them: with the same profile and
+/// features, so that nothing is built again.
 pub fn run(shell: &Shell, step: &str) -> Done {
-    let mut found = false;
-    for (package, folder) in [
-        ("bowden-bound", "bound"),
-        ("bowden-lab", "lab/identify"),
-        ("bowden-cli", "lab/cli"),
-        ("bowden-rig", "lab/rig"),
-        ("bowden-trials", "lab/trials"),
-    ] {
+    let (mut targets, mut names) = (BTreeSet::new(), String::new());
+    for folder in ["bound", "lab/identify", "lab/cli", "lab/rig", "lab/trials"] {
         let folder = shell.root.join(folder).join("tests");
-        let (mut targets, mut names) = (BTreeSet::new(), String::new());
         for file in house::files(&folder)? {
             let text = fs::read_to_string(&file)?;
             let tests = match tests(&text) {
@@ -58,19 +51,12 @@ pub fn run(shell: &Shell, step: &str) -> Done {
                 names += test;
             }
         }
-        if targets.is_empty() {
-            continue;
-        }
-        found = true;
-        let targets: String = targets.iter().map(|t| format!(" --test {t}")).collect();
-        shell.run(&format!(
-            "cargo test -p {package}{targets} -- --ignored{names}"
-        ))?;
     }
-    if found {
-        return Ok(());
+    if targets.is_empty() {
+        return fail("no slow test names this step");
     }
-    fail("no slow test names this step")
+    let targets: String = targets.iter().map(|t| format!(" --test {t}")).collect();
+    shell.run(&format!("cargo test{targets} -- --ignored{names}"))
 }
 
 #[cfg(test)]
