@@ -56,8 +56,8 @@ fn names_that_the_steps_of_an_encoder_explain_are_not_firm() {
     );
     closed.says(&[
         "`x` has a resolution of 0.15 mm",
-        "Terms that depend on its velocity or its reversals, here ",
-        "are uncertain",
+        "Terms that depend on its velocity or its reversals (",
+        ") are uncertain.",
     ]);
     closed.text();
 }
