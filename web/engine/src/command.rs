@@ -71,60 +71,6 @@ pub(crate) fn compare(model: &str, gains: Option<&str>, trials: &Trials) -> Stri
     line(&words)
 }
 
-/// `bowden validate` with the model, the file and the options.
-pub(crate) fn validate(model: &str, file: &File, choices: &Choices) -> String {
-    let mut words = vec!["bowden".to_owned(), "validate".to_owned(), model.to_owned()];
-    words.extend(records(&[file]));
-    words.extend(columns(choices));
-    words.extend(["--report".to_owned(), "report.html".to_owned()]);
-    line(&words)
-}
-
-/// `bowden design` with the model and the options.
-pub(crate) fn design(model: &str, wanted: &Wanted) -> String {
-    let mut words = vec!["bowden".to_owned(), "design".to_owned(), model.to_owned()];
-    words.extend(numbers([
-        ("--rate", Some(wanted.rate)),
-        ("--delay", Some(wanted.delay)),
-        ("--noise", wanted.noise),
-        ("--drive-gain", wanted.drive_gain),
-    ]));
-    words.extend(["--out".to_owned(), "gains.toml".to_owned()]);
-    line(&words)
-}
-
-/// `bowden compare` with the model, the gains and the options.
-pub(crate) fn compare(model: &str, gains: Option<&str>, trials: &Trials) -> String {
-    let mut words = vec!["bowden".to_owned(), "compare".to_owned()];
-    words.extend(["--model".to_owned(), model.to_owned()]);
-    words.extend(
-        gains
-            .into_iter()
-            .flat_map(|g| ["--gains".to_owned(), g.to_owned()]),
-    );
-    for (flag, is_set) in [("--varying", trials.varying), ("--gait", trials.gait)] {
-        words.extend(is_set.then(|| flag.to_owned()));
-    }
-    if let Some(seeds) = trials.seeds {
-        words.extend(["--seeds".to_owned(), seeds.to_string()]);
-    }
-    words.extend(numbers([
-        ("--seconds", trials.seconds),
-        ("--noise", trials.noise),
-        ("--drive-gain", trials.drive_gain),
-        ("--inertia", trials.inertia),
-        ("--damping", trials.damping),
-        ("--joint-inertia", trials.joint_inertia),
-        ("--joint-damping", trials.joint_damping),
-        ("--spring", trials.spring),
-        ("--delay", trials.delay.map(f64::from)),
-        ("--drive-lag", trials.drive_lag),
-        ("--sensor-lag", trials.sensor_lag),
-    ]));
-    words.extend(["--report".to_owned(), "report.html".to_owned()]);
-    line(&words)
-}
-
 /// The options that have a value.
 fn numbers<const N: usize>(all: [(&str, Option<f64>); N]) -> impl Iterator<Item = String> + '_ {
     all.into_iter()
