@@ -128,7 +128,7 @@ fn days(date: &str) -> Option<i64> {
 }
 
 /// Days of a month; `None` if there is no such month.
-fn length(year: i64, month: i64) -> Option<i64> {
+pub(super) fn length(year: i64, month: i64) -> Option<i64> {
     let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
     match month {
         2 => Some(if leap { 29 } else { 28 }),

@@ -64,6 +64,7 @@ mod vectors;
 #[cfg(feature = "xlsx")]
 mod workbook;
 mod wrapping;
+mod zip;
 
 pub use agree::{agree, is_same_unit, to_unit};
 pub use defects::{bridged, Defect, DefectKind, Steps};

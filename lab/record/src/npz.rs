@@ -1,21 +1,12 @@
 //! NumPy's `.npz`, a zip archive with one array per file, and `.npy`, one array.
 //!
-//! Sources: PKWARE, *APPNOTE.TXT*; NumPy, *NEP 1: a simple file format for NumPy arrays*. An array
-//! of numbers is a vector, or a matrix whose columns are named by an array of as many texts. The
-//! fields of a structured array are vectors. Every length is checked against the number of bytes.
+//! Source: NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of numbers
+//! is a vector, or a matrix whose columns are named by an array of as many texts. The fields of a
+//! structured array are vectors. Every length is checked against the number of bytes.
 
-use super::limits::{too_large, BYTES, COLUMNS};
+use super::limits::{BYTES, COLUMNS};
 use super::vectors::Value;
-use flate2::read::DeflateDecoder;
-use flate2::Crc;
-use std::io::Read;
-
-/// Why the bytes are no archive of arrays.
-type Damage = String;
-
-fn damaged(what: &str) -> Damage {
-    format!("the file is damaged: {what}")
-}
+use super::zip::{damaged, entries, number, slice, unpacked, Damage};
 
 /// The arrays of an archive, each with its name.
 pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
@@ -58,69 +49,6 @@ pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)
             shape.len()
         )),
         _ => Err("the array does not contain real numbers".to_owned()),
-    }
-}
-
-/// The names of the files in an archive, and where their entries in the directory begin.
-fn entries(bytes: &[u8]) -> Result<Vec<(String, usize)>, Damage> {
-    let end = b"PK\x05\x06";
-    let end = bytes.windows(end.len()).rposition(|own| own == end);
-    let end = end.ok_or_else(|| damaged("the zip archive is truncated"))?;
-    let count = number::<2>(bytes, end + 10)?;
-    let mut at = number::<4>(bytes, end + 16)?;
-    let mut all = Vec::new();
-    for _ in 0..count {
-        let lengths = [28, 30, 32].map(|field| number::<2>(bytes, at + field));
-        let [name, extra, comment] = lengths;
-        let (name, extra, comment) = (name?, extra?, comment?);
-        let own = String::from_utf8_lossy(slice(bytes, at + 46, name)?).into_owned();
-        all.push((own, at));
-        at += 46 + name + extra + comment;
-    }
-    Ok(all)
-}
-
-/// The size of all files in an archive, as its directory states it \[bytes\].
-#[cfg(feature = "xlsx")]
-pub(super) fn unpacked_size(bytes: &[u8]) -> Result<u64, Damage> {
-    let sizes = entries(bytes)?.into_iter();
-    let mut sizes = sizes.map(|(_, at)| number::<4>(bytes, at + 24));
-    sizes.try_fold(0, |all, size| Ok(all + size? as u64))
-}
-
-/// The bytes of the file whose entry in the directory begins there; at most `left` of them.
-fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
-    let field = |at: usize| number::<2>(bytes, entry + at);
-    let (flags, method) = (field(8)?, field(10)?);
-    let check = number::<4>(bytes, entry + 16)?;
-    let packed = number::<4>(bytes, entry + 20)?;
-    let local = number::<4>(bytes, entry + 42)?;
-    if flags % 2 == 1 {
-        return Err("the file is encrypted; save it without a password".to_owned());
-    }
-    let names = number::<2>(bytes, local + 26)? + number::<2>(bytes, local + 28)?;
-    let packed = slice(bytes, local + 30 + names, packed)?;
-    let mut file = Vec::new();
-    let read = match method {
-        0 => packed.take(left + 1).read_to_end(&mut file),
-        8 => DeflateDecoder::new(packed)
-            .take(left + 1)
-            .read_to_end(&mut file),
-        _ => {
-            return Err(format!(
-                "the zip archive has the compression {method}; use np.savez or np.savez_compressed"
-            ))
-        }
-    };
-    read.map_err(|error| damaged(&error.to_string()))?;
-    if file.len() as u64 > left {
-        return Err(too_large(" when unpacked").message().to_owned());
-    }
-    let mut own = Crc::new();
-    own.update(&file);
-    match own.sum() as usize == check {
-        true => Ok(file),
-        false => Err(damaged("a checksum is wrong")),
     }
 }
 
@@ -320,18 +248,4 @@ impl Kind {
         };
         text.trim_end_matches('\0').to_owned()
     }
-}
-
-/// The little-endian number with this many bytes at this position.
-fn number<const N: usize>(bytes: &[u8], at: usize) -> Result<usize, Damage> {
-    let own = slice(bytes, at, N)?;
-    Ok(own
-        .iter()
-        .rev()
-        .fold(0, |all, byte| all << 8 | usize::from(*byte)))
-}
-
-fn slice(bytes: &[u8], at: usize, length: usize) -> Result<&[u8], Damage> {
-    let own = bytes.get(at..).and_then(|rest| rest.get(..length));
-    own.ok_or_else(|| damaged("the zip archive is truncated"))
 }

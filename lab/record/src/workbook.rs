@@ -1,18 +1,19 @@
 //! Excel workbooks (`.xlsx`): a sheet becomes a text, one line per row, that is read like any other.
 //!
-//! The crate `calamine` reads the cells. Numbers keep all their digits. A date becomes
-//! `2026-03-01T14:03:21.250000`, a time of day `14:03:21.250000` and a duration its seconds. An
-//! error such as `#DIV/0!` becomes an empty cell.
+//! Source: ECMA-376, *Office Open XML*, part 1, chapter 18. Numbers keep all their digits. A date
+//! becomes `2026-03-01T14:03:21.250000`, a time of day `14:03:21.250000` and a duration its seconds.
+//! An error such as `#DIV/0!` becomes an empty cell.
 
 use super::encoding::Decoded;
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::limits::{too_large, BYTES, COLUMNS};
-use super::{header, layout, npz, Options};
-use calamine::{DataRef, ExcelDateTime, ExcelDateTimeType, Reader, SheetType, Xlsx, XlsxError};
+use super::{header, layout, Options};
+use book::{Book, Cell};
 use std::borrow::Cow;
-use std::fmt::Write;
-use std::io::Cursor;
-use std::panic::{catch_unwind, AssertUnwindSafe};
+
+mod book;
+mod styles;
+mod xml;
 
 /// The separator between cells.
 const TAB: char = '\t';
@@ -34,52 +35,43 @@ impl Sheet {
     }
 }
 
-/// The sheet that the options request.
-pub(super) fn read(bytes: &[u8], options: &Options) -> Result<Sheet, RecordError> {
-    let refuse =
-        |why: &str| RecordError::new(format!("the workbook is damaged: {}", shown(why, 200)));
-    let size = npz::unpacked_size(bytes).map_err(RecordError::new)?;
-    if size > BYTES {
-        return Err(too_large(" when unpacked"));
-    }
-    match catch_unwind(AssertUnwindSafe(|| chosen(bytes, options))) {
-        Ok(Ok(sheet)) => Ok(sheet),
-        Ok(Err(Failure::Damage(why))) => Err(refuse(&why)),
-        Ok(Err(Failure::Refused(error))) => Err(error),
-        Err(_) => Err(refuse("it cannot be decoded")),
-    }
-}
-
-/// Why there is no sheet.
+/// Why a workbook cannot be read.
 enum Failure {
     Damage(String),
     Refused(RecordError),
-}
-
-impl From<XlsxError> for Failure {
-    fn from(error: XlsxError) -> Self {
-        Self::Damage(error.to_string())
-    }
 }
 
 fn refused(message: impl Into<String>) -> Failure {
     Failure::Refused(RecordError::new(message))
 }
 
+fn damaged(what: impl Into<String>) -> Failure {
+    Failure::Damage(what.into())
+}
+
+/// The sheet that the options request.
+pub(super) fn read(bytes: &[u8], options: &Options) -> Result<Sheet, RecordError> {
+    chosen(bytes, options).map_err(|failure| match failure {
+        Failure::Refused(error) => error,
+        Failure::Damage(why) => {
+            let why = shown(&why, 200);
+            RecordError::new(format!("the workbook is damaged: {why}"))
+        }
+    })
+}
+
 fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
-    let mut book = Xlsx::new(Cursor::new(bytes))?;
-    let sheets = book.sheets_metadata().iter();
-    let sheets = sheets.filter(|sheet| sheet.typ == SheetType::WorkSheet);
-    let names: Vec<String> = sheets.map(|sheet| sheet.name.clone()).collect();
+    let mut book = Book::open(bytes)?;
+    let names: Vec<String> = book.sheets.iter().map(|sheet| sheet.name.clone()).collect();
     if let Some(name) = &options.sheet {
-        if !names.contains(name) {
+        let Some(index) = names.iter().position(|own| own == name) else {
             let near = header::nearest(name, names.iter().map(String::as_str));
             let name = shown(name, NAME_LENGTH);
             return Err(refused(format!(
                 "--sheet {name}: the workbook has no such sheet{near}"
             )));
-        }
-        let text = text(&mut book, name)?;
+        };
+        let text = text(&mut book, index)?;
         if text.trim().is_empty() {
             let name = shown(name, NAME_LENGTH);
             return Err(refused(format!("--sheet {name}: the sheet is empty")));
@@ -88,8 +80,8 @@ fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
     }
     // With the wanted columns, or else with any.
     let (mut tables, mut wanted): (Vec<(&str, String)>, _) = (Vec::new(), None);
-    for name in &names {
-        let text = text(&mut book, name)?;
+    for (index, name) in names.iter().enumerate() {
+        let text = text(&mut book, index)?;
         if layout::has_table(&text) {
             if wanted.is_none() && layout::find(&text, options).is_ok() {
                 wanted = Some(tables.len());
@@ -121,28 +113,20 @@ fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
 }
 
 /// The text of a sheet; every line has as many cells as the longest.
-fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
-    let is_1904 = book.has_1904_epoch();
-    let mut cells = book.worksheet_cells_reader(name)?;
+fn text(book: &mut Book<'_>, sheet: usize) -> Result<String, Failure> {
     // The rows so far, and how many cells each has.
     let (mut lines, mut counts) = (String::new(), vec![0]);
-    while let Some(cell) = cells.next_cell()? {
-        let value = written(cell.get_value(), is_1904);
-        if value.is_empty() {
-            continue;
-        }
-        let (row, column) = cell.get_position();
-        let (row, column) = (row as usize, column as usize);
+    let name = shown(&book.sheets[sheet].name, NAME_LENGTH);
+    book.cells(sheet, |Cell { row, column, text }| {
         if column >= COLUMNS {
             return Err(refused(format!(
-                "row {} of sheet `{}` has a cell in column {}, but a sheet may have at most {COLUMNS} columns",
+                "row {} of sheet `{name}` has a cell in column {}, but a sheet may have at most {COLUMNS} columns",
                 row + 1,
-                shown(name, NAME_LENGTH),
                 column + 1
             )));
         }
         if row + 1 < counts.len() || row + 1 == counts.len() && column < counts[row] {
-            return Err(Failure::Damage("its cells are not in order".to_owned()));
+            return Err(damaged("its cells are not in order"));
         }
         while counts.len() <= row {
             lines.push('\n');
@@ -150,12 +134,13 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         }
         let separators = column + usize::from(counts[row] > 0) - counts[row];
         lines.extend(std::iter::repeat_n(TAB, separators));
-        lines.push_str(&value);
+        lines.push_str(text);
         counts[row] = column + 1;
         if lines.len() as u64 > BYTES {
             return Err(Failure::Refused(too_large(" when unpacked")));
         }
-    }
+        Ok(())
+    })?;
     let width = counts.iter().copied().max().unwrap_or(0).max(1);
     let mut padded = String::with_capacity(lines.len());
     for (line, count) in lines.split('\n').zip(counts) {
@@ -164,51 +149,4 @@ fn text(book: &mut Xlsx<Cursor<&[u8]>>, name: &str) -> Result<String, Failure> {
         padded.push('\n');
     }
     Ok(padded)
-}
-
-/// A cell as a text without tabs and line ends.
-fn written(value: &DataRef<'_>, is_1904: bool) -> String {
-    let plain = |text: &str| {
-        let text = text.replace(char::is_control, " ").replace('"', "'");
-        text.trim().to_owned()
-    };
-    match value {
-        DataRef::Int(number) => number.to_string(),
-        DataRef::Float(number) => number.to_string(),
-        DataRef::Bool(is) => u8::from(*is).to_string(),
-        DataRef::String(text) | DataRef::DateTimeIso(text) | DataRef::DurationIso(text) => {
-            plain(text)
-        }
-        DataRef::SharedString(text) => plain(text),
-        DataRef::DateTime(stamp) => stamp_of(stamp, is_1904),
-        DataRef::Error(_) | DataRef::Empty => String::new(),
-    }
-}
-
-/// A time stamp to the microsecond, which is the resolution of days in a double; days count from
-/// 1900 or 1904.
-fn stamp_of(stamp: &ExcelDateTime, is_1904: bool) -> String {
-    let day = 86_400_000_000.0;
-    let whole = (stamp.as_f64() * day).round();
-    if stamp.is_duration() {
-        return (whole / 1e6).to_string();
-    }
-    let days = (whole / day).floor();
-    let mut text = String::new();
-    if days >= 1.0 {
-        // Of the crate only the calendar, because its times have milliseconds.
-        let midnight = ExcelDateTime::new(days, ExcelDateTimeType::DateTime, is_1904);
-        let (year, month, day, ..) = midnight.to_ymd_hms_milli();
-        let _ = write!(text, "{year:04}-{month:02}-{day:02}T");
-    }
-    let micros = (whole - days * day) as u64;
-    let seconds = micros / 1_000_000;
-    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
-    let _ = write!(
-        text,
-        "{hours:02}:{minutes:02}:{:02}.{:06}",
-        seconds % 60,
-        micros % 1_000_000
-    );
-    text
 }

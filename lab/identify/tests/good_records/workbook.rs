@@ -60,6 +60,8 @@ fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
         "<workbook xmlns=\"{main}\" xmlns:r=\"{office}\"><sheets>{list}</sheets></workbook>"
     );
     files.push(("xl/workbook.xml".to_owned(), book));
+    relations +=
+        &format!("<Relationship Id=\"styles\" Type=\"{office}/styles\" Target=\"styles.xml\"/>");
     let relations = format!("<Relationships xmlns=\"{package}\">{relations}</Relationships>");
     files.push(("xl/_rels/workbook.xml.rels".to_owned(), relations));
     files.push(("xl/styles.xml".to_owned(), STYLES.to_owned()));
@@ -225,6 +227,99 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
     assert_eq!(
         text.unwrap_err().to_string(),
         "r.csv: --sheet A: the file is not an Excel workbook"
+    );
+}
+
+/// Names with a prefix, targets from the root, texts in a part of their own with formats and a
+/// pronunciation, cells and rows without a place, and dates from 1904.
+#[test]
+fn what_other_writers_do_is_read() {
+    let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+    let relation = |id: &str, kind: &str, target: &str| {
+        format!("<Relationship Id=\"{id}\" Type=\"{office}/{kind}\" Target=\"{target}\"/>")
+    };
+    let relations = |all: &[String]| format!("<Relationships>{}</Relationships>", all.concat());
+    let row = |(i, row): (usize, &String)| {
+        let days = 44_620.0 + i as f64 * 0.01 / 86_400.0;
+        let cells = row.split(',').skip(1);
+        let cells: String = cells
+            .map(|own| format!("<x:c><x:v>{own}</x:v></x:c>"))
+            .collect();
+        format!(
+            "<x:row><x:c s=\"1\"><x:v>{days}</x:v></x:c>{cells}<x:c t=\"b\"><x:v>1</x:v></x:c></x:row>"
+        )
+    };
+    let data: String = rows().iter().enumerate().map(row).collect();
+    let names =
+        ["t", "s", "s"]
+            .iter()
+            .zip(["<x:is><x:t>t</x:t></x:is>", "<x:v>1</x:v>", "<x:v>0</x:v>"]);
+    let names: String = names
+        .map(|(kind, own)| match *kind {
+            "t" => format!("<x:c t=\"inlineStr\">{own}</x:c>"),
+            kind => format!("<x:c t=\"{kind}\">{own}</x:c>"),
+        })
+        .collect();
+    let names = names + "<x:c t=\"str\"><x:v>is &#x2713; &amp; on</x:v></x:c>";
+    let files = [
+        ("_rels/.rels", relations(&[relation("a", "officeDocument", "/xl/book.xml")])),
+        (
+            "xl/_rels/book.xml.rels",
+            relations(&[
+                relation("b", "worksheet", "/xl/Run.xml"),
+                relation("c", "sharedStrings", "texts.xml"),
+                relation("d", "styles", "styles.xml"),
+            ]),
+        ),
+        (
+            "xl/book.xml",
+            "<x:workbook xmlns:r=\"r\"><x:workbookPr date1904=\"1\"/><x:sheets>\
+             <x:sheet name=\"A &amp; B\" sheetId=\"1\" r:id=\"b\"/></x:sheets></x:workbook>"
+                .to_owned(),
+        ),
+        (
+            "xl/texts.xml",
+            "<sst><si><r><t>f</t></r><r><rPr/><t xml:space=\"preserve\"> [N]</t></r>\
+             <rPh><t>eff</t></rPh></si><si><t><![CDATA[x]]></t></si></sst>"
+                .to_owned(),
+        ),
+        ("xl/styles.xml", STYLES.to_owned()),
+        (
+            "xl/run.xml",
+            format!("<x:worksheet><x:sheetData><x:row>{names}</x:row>{data}</x:sheetData></x:worksheet>"),
+        ),
+    ];
+    let files: Vec<(&str, Vec<u8>)> = files
+        .iter()
+        .map(|(name, text)| (*name, text.clone().into_bytes()))
+        .collect();
+    let record = parse(&zip(&files, true), "r.xlsx", &Options::default()).unwrap();
+    let plain = accepted(csv("t,x,f", &rows()));
+    assert_eq!(record.input.values, plain.input.values);
+    assert_eq!(record.output.values, plain.output.values);
+    assert_eq!(record.output.unit.as_deref(), Some("N"));
+    let mut apart = record.time.iter().zip(&plain.time);
+    assert!(
+        apart.all(|(a, b)| (a - b).abs() < 2e-6),
+        "{:?}",
+        record.time
+    );
+    let names: Vec<String> = outline(&zip(&files, true), &Options::default())
+        .unwrap()
+        .columns
+        .into_iter()
+        .map(|own| own.name)
+        .collect();
+    assert_eq!(names, ["t", "x", "f", "is ✓ & on"]);
+
+    let binary = [(
+        "_rels/.rels",
+        relations(&[relation("a", "officeDocument", "xl/workbook.bin")]),
+    )];
+    let binary = binary.map(|(name, text)| (name, text.into_bytes()));
+    assert_eq!(
+        parse(&zip(&binary, true), "r.xlsb", &Options::default()).unwrap_err().to_string(),
+        "r.xlsb: the file is a binary workbook (.xlsb), which bowden does not read; save it as .xlsx"
     );
 }
 
