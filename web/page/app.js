@@ -10,7 +10,7 @@ import { answer, report } from "./result.js";
 const at = (id) => document.getElementById(id);
 const engine = new Engine();
 const EXAMPLE = "built-in synthetic record (bowden generate --mode torque --effect viscous --seed 7)";
-const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "names", "baseline", "max_terms", "drop_bad", "per_file", "invertible"];
+const OPTIONS = ["mode", "start", "end", "cutoff", "rate", "header_line", "segment", "sheet", "names", "baseline", "max_terms", "drop_bad", "per_file", "invertible"];
 
 // The files, the column roles that the user has chosen, and the last result.
 const state = { files: [], looks: new Map(), parts: null, result: null, validated: null, designed: null, compared: null, turn: 0, answered: 0 };
@@ -277,7 +277,7 @@ async function validate(file) {
     return;
   }
   at("validated").replaceChildren(element("p", { class: "note" }, "validating …"));
-  const { start, end, header_line, segment, names, baseline, max_terms, invertible, per_file, ...rest } = chosen;
+  const { start, end, header_line, segment, sheet, names, baseline, max_terms, invertible, per_file, ...rest } = chosen;
   try {
     const held = await engine.ask({ ask: "validate", model: name, file: file.name, choices: rest }, { files: [file], bytes: bytes.slice().buffer });
     state.validated = held;

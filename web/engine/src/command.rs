@@ -110,6 +110,7 @@ fn columns(choices: &Choices) -> Vec<String> {
         ("--rate", number(choices.rate)),
         ("--header-line", whole(choices.header_line)),
         ("--segment", whole(choices.segment)),
+        ("--sheet", choices.sheet.clone()),
         ("--names", names),
     ])
     .filter_map(|(name, value)| Some([name.to_owned(), value?]))

@@ -97,6 +97,31 @@ fn the_command_line_has_what_was_chosen() {
 }
 
 #[test]
+fn a_sheet_of_a_workbook_is_chosen_as_in_the_program() {
+    let mut engine = Engine::default();
+    let add = json!({"ask": "add", "name": "r.xlsx"});
+    let bytes = include_bytes!("../../../lab/cli/tests/cli/reading/files/vectors.xlsx");
+    let _ = ask(&mut engine, &add, bytes);
+    let look = |sheet: &str| json!({"ask": "look", "file": "r.xlsx", "choices": {"sheet": sheet}});
+    let answer = ask(&mut engine, &look("Run"), &[]);
+    assert!(
+        answer.get("refusal").is_none(),
+        "{:?}",
+        answer.get("refusal")
+    );
+    let answer = ask(&mut engine, &look("run"), &[]);
+    assert_eq!(
+        answer.get("refusal").unwrap()["text"],
+        "r.xlsx: --sheet run: the workbook has no such sheet (nearest: `Run`)"
+    );
+    let choices = json!({"sheet": "Run", "max_terms": 0});
+    let identify = json!({"ask": "identify", "files": ["r.xlsx"], "choices": choices});
+    let answer = ask(&mut engine, &identify, &[]);
+    let expected = "bowden identify r.xlsx --sheet Run --max-terms 0 --report report.html";
+    assert_eq!(answer.get("command").unwrap(), expected);
+}
+
+#[test]
 fn what_is_no_request_gets_one_line() {
     let mut engine = Engine::default();
     for request in [

@@ -40,7 +40,11 @@ pub fn check() -> Done {
         "(() => { document.getElementById('mode').value = ''; bowden.state.files.splice(0); })()",
     )?;
 
-    for names in [&["damper.csv"][..], &["straight.csv", "bent.csv"]] {
+    for names in [
+        &["damper.csv"][..],
+        &["vectors.xlsx"],
+        &["straight.csv", "bent.csv"],
+    ] {
         let files: Vec<_> = names
             .iter()
             .map(|name| native.folder().join(name))

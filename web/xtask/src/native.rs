@@ -40,6 +40,8 @@ impl Native {
         ] {
             std::fs::copy(examples().join(name), folder.join(name))?;
         }
+        let workbook = root().join("../lab/cli/tests/cli/reading/files/vectors.xlsx");
+        std::fs::copy(workbook, folder.join("vectors.xlsx"))?;
         Ok(Self { program, folder })
     }
 
