@@ -11,10 +11,10 @@
 //! frequencies below `1/tau`, the loop then behaves as if the plant were the nominal plant, unless
 //! a limit is active.
 //!
-//! The observer needs alpha, wn and zeta from the drive's specification or from a bench record.
+//! Take alpha, wn and zeta from the drive's specification or from a bench record.
 //!
-//! Add the estimate to a controller's `feed_forward`. The limit of the observer bounds the estimate
-//! for any input. You can also add the command of the nominal plant for the reference
+//! Add the estimate to a controller's `feed_forward`. For any input, the estimate stays within the
+//! limit of the observer. You can also add the command of the nominal plant for the reference
 //! ([`NominalPlant::feed_forward`]). Do not also add the command of a
 //! [`Compensator`](super::Compensator). Otherwise the friction is compensated twice.
 //!
@@ -52,7 +52,7 @@ crate::checked::stored! {
     /// ```
     /// The lags are stable for any `dt`, which may vary, but the closed loop requires a `dt` well
     /// below tau. Even with zero latency, the command affects the output only at the next sample.
-    /// Above `1/tau`, white noise on y reaches the command with a factor of about
+    /// At frequencies above `1/tau`, white noise on y appears in the command, multiplied by about
     /// `1/(alpha·(wn·tau)²)`.
     ///
     /// ```
@@ -139,7 +139,8 @@ crate::checked! {
     /// hold, and the lags of drive and sensor. It does not include the response of the nominal
     /// plant.
     ///
-    /// Before the comparison, the observer delays the command by a lag with this time constant.
+    /// Before the comparison, the observer passes the command through a first-order lag with this
+    /// time constant.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"latency"`.
@@ -178,10 +179,10 @@ impl<T: Real> DisturbanceObserver<T> {
     /// Processes one sample and returns the estimate to add to the next command.
     ///
     /// Call this method at every sample, before the controller. A sample is bad if `dt` is not
-    /// positive or too long, or if the command or the output is not finite. A bad sample holds the
-    /// estimate, and its `dt` is added to the next `dt`. If the `dt` itself is unusable, the next
-    /// `dt` counts twice. If the estimate overflows, it is held, and the lags restart at the next
-    /// good sample. For any state, the estimate is finite and within ±limit.
+    /// positive or too long, or if the command or the output is not finite. After a bad sample, the
+    /// estimate is held, and the `dt` of this sample is added to the next `dt`. If the `dt` itself
+    /// is unusable, the next `dt` counts twice. If the estimate overflows, it is held, and the lags
+    /// restart at the next good sample. For any state, the estimate is finite and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Output<T> {
         let status = if self.advance(state, at) {

@@ -15,8 +15,9 @@
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
 //!   with delay, the error is between −19 % (short delay) and +27 % (long delay). It is −11 % if
 //!   the delay equals the time constant.
-//! - **Hysteresis.** A hysteresis makes T_u too long and k_u too low, which is conservative. With
-//!   eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is several times eps.
+//! - **Hysteresis.** The hysteresis makes T_u too long and k_u too low, so the gains are
+//!   conservative. With eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is
+//!   several times eps.
 //! - **Asymmetric cycles.** A load or a bias makes the half-periods unequal. The first harmonic of
 //!   such a command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low: by 5 %
 //!   for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
@@ -117,11 +118,12 @@ impl<T: Real> Relay<T> {
     /// \[output unit\].
     ///
     /// The status is [`Status::Held`] for a bad sample, and [`Status::Safe`] after a failure. After
-    /// a success, [`RelayState::result`] returns the result, and the relay applies the centre.
+    /// a success, the relay applies the command `centre`, and [`RelayState::result`] returns the
+    /// result.
     ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
-    /// holds the command. If its `dt` is not usable, the average excludes the cycle with this
-    /// sample.
+    /// holds the command. If the `dt` of a bad sample is not usable, the cycle that contains this
+    /// sample is not averaged.
     pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Output<T> {
         let s = &self.settings;
         let status = match state.held.latched(&s.fallback) {
