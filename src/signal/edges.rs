@@ -9,8 +9,8 @@ crate::checked::stored! {
     /// Velocity from the time between counts (period measurement or M/T method).
     ///
     /// If a counter changes less than once per sample, its difference quotient is either zero or
-    /// one count per `dt`. Instead, this type uses the number M of counts and the time T between
-    /// two samples with counts, which is known to one `dt`:
+    /// one count per `dt`. Instead, this type divides the number M of counts by the time T between
+    /// two samples with counts. T is known to within one `dt`:
     ///
     /// ```text
     /// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
@@ -19,16 +19,17 @@ crate::checked::stored! {
     /// * **Error**: at a constant speed of `f` counts per second, the relative error is at most
     ///   `f·dt/(1 − f·dt)` if `f·dt < 1` (at least one sample per count). At any speed, it is at
     ///   most `dt/tau·min(1, 1/(f·dt))`.
-    /// * **Delay**: at a count, slow changes have a delay of `T·(1/2 + q/(1 − q))` with
-    ///   `q = e^(−T/tau)`. This delay is about `T/2` at low speed and tau at high speed. Until the
-    ///   next count the velocity is held, which adds `T/2` on average.
+    /// * **Delay**: at a count, the velocity follows slow changes with a delay of
+    ///   `T·(1/2 + q/(1 − q))`, where `q = e^(−T/tau)`. This delay is about `T/2` at low speed and
+    ///   tau at high speed. The velocity is held until the next count, which adds `T/2` on average.
     /// * **Stop**: without a count, the bound on the velocity falls with time. After `longest_gap`
     ///   without a count, the velocity is zero and the status is [`RateStatus::Stopped`]. A speed
-    ///   below `count/longest_gap` therefore counts as a stop.
+    ///   below `count/longest_gap` is therefore reported as a stop.
     /// * **Reversal**: after a reversal, the first count passes the same encoder line as the
     ///   previous count, so the axis has moved by one count less. Dither of one count gives zero
     ///   velocity.
-    /// * **Start**: the first count only locates a line. The second count gives the first velocity.
+    /// * **Start**: the first count only locates an encoder line. The second count gives the first
+    ///   velocity.
     /// * **Bad samples**: a bad sample does not change the velocity, but its `dt` is included in T.
     ///   After a `dt` that is negative or not finite, the time is unknown, and the next count
     ///   starts a new interval.
@@ -70,7 +71,7 @@ crate::checked::stored! {
 crate::data! {
     /// Output of an [`EdgeVelocity`]'s step.
     pub struct EdgeVelocityOutput<T> {
-        /// The velocity \[channel unit/s\]: finite, and zero until two counts are known.
+        /// The velocity \[channel unit/s\]: finite, and zero until the position has changed twice.
         pub velocity: T,
         /// Validity of the velocity.
         pub status: RateStatus,
@@ -97,9 +98,9 @@ crate::checked! {
 
     /// Velocity from positions that change by multiples of `count` \[channel unit\].
     ///
-    /// The velocity is averaged over `time_constant` \[s\] if several counts occur in this time. A
-    /// time of `longest_gap` \[s\] without a count means a stop. All three arguments must be
-    /// positive.
+    /// The velocity is averaged over `time_constant` \[s\] if several counts occur in this time. If
+    /// no count occurs for `longest_gap` \[s\], the axis counts as stopped. All three arguments
+    /// must be positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or
@@ -262,7 +263,7 @@ impl<T: Real> EdgeVelocityState<T> {
         }
     }
 
-    /// The velocity \[channel unit/s\]; zero until two counts are known.
+    /// The velocity \[channel unit/s\]; zero until the position has changed twice.
     pub fn velocity(&self) -> T {
         self.velocity.unwrap_or(T::ZERO)
     }

@@ -65,7 +65,7 @@ impl<T: Real> LowPass<T> {
     /// A sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
     /// leaves the state unchanged and returns the last output, or zero before the first good
     /// sample. If the difference between a sample and the output overflows, the filter restarts at
-    /// rest at the sample.
+    /// rest at this sample.
     #[inline]
     pub fn step(&self, state: &mut LowPassState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() && dt.is_finite() && dt > T::ZERO {

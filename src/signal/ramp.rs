@@ -74,9 +74,9 @@ crate::checked! {
 impl<T: Real> Ramp<T> {
     /// The reference \[signal unit\] `dt` \[s\] later, on its way to `wanted` \[signal unit\].
     ///
-    /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
-    /// reference unchanged. The reference never overshoots a constant `wanted`. If `wanted`
-    /// reverses during the ramp, the lag may overshoot it by up to `rate·time_constant`.
+    /// The reference does not change if `wanted` is not finite, or if `dt` is not positive or is
+    /// too long. The reference never overshoots a constant `wanted`. If `wanted` reverses during
+    /// the ramp, the lag may overshoot it by up to `rate·time_constant`.
     #[inline]
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {

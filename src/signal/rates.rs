@@ -25,13 +25,14 @@ crate::checked::stored! {
     /// v⁺ = v + s·((x − x_last)/h − v)
     /// a⁺ = a + s·((v⁺ − v)/h − a)
     /// ```
-    /// With the time constant tau, and well below the sample rate, `V/X = s/(tau·s + 1)` and
-    /// `A/X = s²/(tau·s + 1)²`. The position has no delay, the velocity has a delay of tau, and the
-    /// acceleration has a delay of 2·tau. At `f` \[Hz\], with `w = 2π·f·tau`, the gain of the
-    /// velocity is `1/√(1 + w²)` and its phase lag is `atan(w)`. The acceleration has the square of
-    /// this gain and twice this lag. At any sample rate, with `q = e^(−h/tau)`,
-    /// `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the velocity is therefore exact. The
-    /// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
+    /// At frequencies well below the sample rate, the transfer functions are `V/X = s/(tau·s + 1)`
+    /// and `A/X = s²/(tau·s + 1)²`, where tau is the time constant. The position has no delay, the
+    /// velocity has a delay of tau, and the acceleration has a delay of 2·tau. At `f` \[Hz\], with
+    /// `w = 2π·f·tau`, the gain of the velocity is `1/√(1 + w²)` and its phase lag is `atan(w)`.
+    /// The acceleration has the square of this gain and twice this lag. At any sample rate, with
+    /// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the velocity is
+    /// therefore exact. The delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to
+    /// within `h²/(12·tau)`.
     ///
     /// White noise with a standard deviation of `s_x` on the position gives noise of about
     /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both values are smaller if tau
@@ -39,7 +40,8 @@ crate::checked::stored! {
     ///
     /// * **First sample**: velocity and acceleration start at zero. On an axis that moves at the
     ///   velocity V, the computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a
-    ///   pulse of `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time constants.
+    ///   pulse with the height `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time
+    ///   constants.
     /// * **Bad samples**: if the position is not finite, or if `dt` is not positive and finite, the
     ///   last good motion is held. The status reports the fault.
     /// * **Gaps**: h is the time since the last good sample, including the time of bad samples. If
@@ -48,10 +50,10 @@ crate::checked::stored! {
     ///   sample then only sets the position, and velocity and acceleration are held.
     /// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
     /// * **Long runs**: a position in `f32` has a resolution of up to `2⁻²³·|x|`, which appears as
-    ///   noise in velocity and acceleration. At 1000 rad the resolution is 6e-5 rad, so with tau =
-    ///   10 ms the noise is up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously,
-    ///   use the position modulo its period. An integer then counts the turns, and only the
-    ///   returned position has this rounding error.
+    ///   noise in velocity and acceleration. At 1000 rad, the resolution is 6e-5 rad. With tau = 10
+    ///   ms, the noise is then up to 0.006 rad/s and 0.6 rad/s². For an axis that turns
+    ///   continuously, use the position modulo its period. An integer then counts the turns, and
+    ///   only the returned position has this rounding error.
     ///
     /// ```
     /// use bowden::signal::{Rates, RatesState, RateStatus};
@@ -147,7 +149,7 @@ crate::checked! {
         constants * time_constant
     }
 
-    /// Rates with `time_constant > 0` \[s\].
+    /// An estimator with `time_constant > 0` \[s\].
     ///
     /// The longest gap is ten time constants. If the sample time is longer, use
     /// [`with_longest_gap`](Self::with_longest_gap). Otherwise, velocity and acceleration restart
@@ -163,7 +165,7 @@ crate::checked! {
         Ok(Rates { time_constant, longest_gap, period })
     }
 
-    /// Rates for a model that was fitted with the cut-off frequency `cutoff` \[Hz\].
+    /// An estimator for a model that was fitted with the cut-off frequency `cutoff` \[Hz\].
     ///
     /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. This
     /// filter has the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its

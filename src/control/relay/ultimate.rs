@@ -32,10 +32,10 @@ crate::data! {
     pub enum PiRule {
         /// k_p = k_u/3.2, T_i = 2.2·T_u: the conservative rule, and the default.
         ///
-        /// On plants that consist of lags, a delay or both, the gain margin is above 2.5 and the
-        /// phase margin is above 45°. These margins include the error of the describing function,
-        /// which may overestimate k_u by 27 %. B. Tyreus, W. Luyben, "Tuning PI controllers for
-        /// integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
+        /// On the tested plants (lags with and without a delay), the gain margin is above 2.5 and
+        /// the phase margin is above 45°. These margins include the error of the describing
+        /// function, which may overestimate k_u by 27 %. B. Tyreus, W. Luyben, "Tuning PI
+        /// controllers for integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
         #[default]
         TyreusLuyben,
         /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
