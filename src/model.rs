@@ -12,9 +12,12 @@
 //! A [`Model`] has a capacity of `N` terms, uses no heap, and is separate from its state. Its
 //! transmission and its terms are optional.
 //!
-//! A sample is bad if `dt` is not positive and finite, if a channel that the model reads is
-//! missing, or if a number that the model reads is not finite. A bad sample leaves the state
-//! unchanged, and the step returns the last good output.
+//! A sample is bad if
+//! - `dt` is not positive and finite,
+//! - a channel that the model reads is missing, or
+//! - a number that the model reads is not finite.
+//!
+//! A bad sample leaves the state unchanged, and the step returns the last good output.
 
 mod curve;
 #[cfg(feature = "serde")]

@@ -277,8 +277,8 @@ impl<T: Real> Transmission<T> {
     /// The inverse, which computes the input for a given output.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] if the gain is zero, or if the output does not rise (with a negative
-    /// gain, fall) with the input on every branch (see the [module](crate::transmission)).
+    /// [`Error::Inadmissible`] if the gain is zero, or if the output does not rise with the input
+    /// on every branch (for a negative gain: fall). See the [module](crate::transmission).
     pub fn inverse(&self) -> Result<Inverse<T>, Error> {
         if self.gain == T::zero() {
             return Err(Error::Inadmissible(

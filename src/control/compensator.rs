@@ -220,7 +220,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         })
     }
 
-    /// The same compensator with a longest `dt` \[s\], positive; default: no limit.
+    /// Sets the longest `dt` \[s\], which must be positive (default: no limit).
     ///
     /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can advance an effect
     /// such as creep by about an hour.
@@ -234,12 +234,12 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { longest_dt, ..self })
     }
 
-    /// The same compensator with a [`Play`] on the desired output of the cable. The half-width
-    /// \[output unit\] is not negative; zero means no play.
+    /// Adds a [`Play`] to the desired output of the cable. The half-width \[output unit\] must not
+    /// be negative; zero means no play.
     ///
-    /// After each reversal the inverse is steep. Its slope increases as sigma approaches the bound
-    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse), and is unbounded
-    /// for a model that was fitted *at* this bound (`bowden identify --invertible`).
+    /// After each reversal, the inverse is steep. Its slope increases as sigma approaches the bound
+    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
+    /// was fitted *at* this bound (`bowden identify --invertible`), the slope is unbounded.
     ///
     /// A term that reads a velocity from encoder counts reverses the desired output from sample to
     /// sample, so the command chatters. A play removes these reversals. Choose a half-width
@@ -254,7 +254,7 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { play, ..self })
     }
 
-    /// The same compensator with motions clamped to the bench range of each source.
+    /// Clamps the motion of each source to its bench range.
     ///
     /// Sources without a range are not clamped. If a source has two ranges, the last one applies.
     ///

@@ -4,10 +4,10 @@
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal phase width, and e is the mean of `reference − measured`
-//! over a cell. The feed-forward interpolates linearly between the learned values at the centres of
-//! the cells. The learned value of a cell is updated `lead + half_width` cells after the end of the
-//! cell, when all required errors are known.
+//! A cycle is divided into cells of equal phase width. The error e of a cell is the mean of
+//! `reference − measured` over this cell. The feed-forward interpolates linearly between the
+//! learned values at the centres of the cells. The learned value of a cell is updated
+//! `lead + half_width` cells after the end of the cell, when all required errors are known.
 //!
 //! The weights form a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has
 //! zero phase, and its gain is between 0 and 1 at every frequency (Fejér kernel):
@@ -138,10 +138,10 @@ crate::checked! {
         Ok(IterativeLearning { gain, limit, lead, half_width, forgetting })
     }
 
-    /// The same settings, but each cycle removes a share (0 to 1) of each learned value.
+    /// Sets the share (0 to 1) of each learned value that each cycle removes.
     ///
-    /// With forgetting, learned values from errors that do not repeat decay. However, part of the
-    /// repeating error then remains.
+    /// With forgetting, learned values decay if their errors do not repeat. However, part of the
+    /// repeating error remains.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
@@ -266,12 +266,12 @@ impl<T: Real> IterativeLearning<T> {
     /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
     ///   and the sample is not used.
     /// - A phase change of more than four cells in one sample, forward or backward, counts as a
-    ///   jump. The cell before a jump and the `lead` cells before the new cell do not learn. For
+    ///   jump. The cell before a jump and the `lead` cells before the new cell are not updated. For
     ///   example, the phase jumps if a walking step ends early at heel contact. The last
-    ///   `lead + half_width` cells before this jump do not learn.
+    ///   `lead + half_width` cells before this jump are then not updated.
     /// - If the phase moves back by up to four cells (jitter), samples are not used until the phase
-    ///   returns to the cell that it had reached. With larger jitter, cells learn several times per
-    ///   cycle. In this case, filter the phase, or set `learns` to `false`.
+    ///   returns to the cell that it had reached. With larger jitter, cells are updated several
+    ///   times per cycle. In this case, filter the phase, or set `learns` to `false`.
     /// - The most expensive step completes four cells, each with a sum over `2·half_width + 1`
     ///   cells.
     #[inline]

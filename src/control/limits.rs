@@ -42,7 +42,7 @@ crate::checked! {
         Ok(Limits { low, high, slew })
     }
 
-    /// The same range with a positive slew-rate limit \[command unit/s\].
+    /// Sets the slew-rate limit \[command unit/s\], which must be positive.
     ///
     /// A slew-rate limit below `2·k_p·noise·rate` also limits the response to noise, and the loop
     /// may oscillate. Here, `noise` is the largest change in the measured output between two

@@ -133,14 +133,14 @@ crate::checked! {
         Ok(DisturbanceObserver { plant, time_constant, limit, longest_dt, latency, inverse })
     }
 
-    /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
+    /// Sets the latency \[s\]: the time from a command to its effect on the measured output, not
+    /// negative.
     ///
-    /// The latency is the sum of the delays in whole samples, half a sample for the zero-order
-    /// hold, and the lags of drive and sensor. It does not include the response of the nominal
-    /// plant.
+    /// The latency is the sum of the whole-sample delays, half a sample for the zero-order hold,
+    /// and the lags of drive and sensor. The response of the nominal plant is not included.
     ///
-    /// Before the comparison, the observer passes the command through a first-order lag with this
-    /// time constant.
+    /// Before the comparison, the observer passes the command through a first-order lag whose time
+    /// constant is the latency.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"latency"`.

@@ -231,13 +231,13 @@ impl<T: Real> Pid<T> {
     ///
     /// All settings may change. The integral is adjusted so that, at the last good sample, the new
     /// terms add up to the applied command. If the same limit clamps the old sum and the new sum,
-    /// the integral is not adjusted, and the new sum may lie beyond this limit. The next command
+    /// the integral is not adjusted. The new sum may then lie beyond this limit. The next command
     /// differs only by one increment of the integral. If the new limits exclude the command, the
     /// limits take priority.
     ///
-    /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before a change
-    /// to PIV, pass samples with a velocity. Without an earlier good sample, or if the sum
-    /// overflows, the state does not change.
+    /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before you
+    /// change to PIV, pass samples that contain the velocity. Without an earlier good sample, or if
+    /// the sum overflows, the state does not change.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidSettings, PidState};

@@ -13,8 +13,8 @@
 //!
 //! - **Describing function.** The formula uses only the first harmonic of the command. Compared
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
-//!   with delay, the error is between −19 % (short delay) and +27 % (long delay). It is −11 % if
-//!   the delay equals the time constant.
+//!   with delay, the error is between −19 % (short delay) and +27 % (long delay). If the delay
+//!   equals the time constant, the error is −11 %.
 //! - **Hysteresis.** The hysteresis makes T_u too long and k_u too low, so the gains are
 //!   conservative. With eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is
 //!   several times eps.
@@ -23,8 +23,8 @@
 //!   for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
 //!   `centre + d·(2·D − 1)` as the next centre.
 //! - **Sampling.** The relay switches up to one `dt` after the crossing. The measured period is
-//!   therefore two `dt` longer on average than the period with a continuous relay, and at most four
-//!   `dt` longer. A sampled controller has the same average delay, so no correction is necessary.
+//!   therefore longer than with a continuous relay: by two `dt` on average, and by at most four
+//!   `dt`. A sampled controller has the same average delay, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the experiment fails with `OutputOutOfRange` or `NoOscillation`.
 //! - **Duration.** The experiment ends within `longest_time`, because the time of bad samples is

@@ -107,10 +107,10 @@ crate::checked! {
         Ok(Fallback { after, weight, most, command: Some(command) })
     }
 
-    /// The same fallback, but with `weight` good samples to cancel a bad sample (default: 4).
+    /// Sets the number `weight` of good samples that cancel a bad sample (default: 4).
     ///
-    /// With a weight of 1, every second sample may be bad without triggering the safe command, if
-    /// `after` is at least 2.
+    /// With a weight of 1 and an `after` of at least 2, the safe command is not applied even if
+    /// every second sample is bad.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"` if `weight` is zero.
@@ -206,11 +206,11 @@ crate::data! {
     /// [`Controller::applied`](super::Controller::applied) and
     /// [`Compensator::applied`](super::Compensator::applied), which also corrects the hysteresis
     /// state. For a [`DisturbanceObserver`](super::DisturbanceObserver), pass the applied command
-    /// as `sent`. For [`IterativeLearning`](super::IterativeLearning), set `learns`.
+    /// as `sent`. For [`IterativeLearning`](super::IterativeLearning), set `learns` to `false`.
     ///
     /// Report `AsCommanded` if the drive deviates slightly from the command for a reason other than
-    /// a limit (an offset, a measured current). `Command` with such a value would stop or shift the
-    /// integral until the difference is zero.
+    /// a limit, such as an offset or a measurement of the current. `Command` with such a value
+    /// would stop or shift the integral until the difference is zero.
     pub enum Applied<T> {
         /// The drive applied the command.
         AsCommanded,

@@ -128,9 +128,9 @@ macro_rules! effects {
 
             /// The regressor at one sample, without the gain.
             ///
-            /// The result is finite for finite inputs. If an input that the effect reads is not
-            /// finite, or if the effect reads `dt` and `dt` is negative, the result is 0 and
-            /// `state` is unchanged.
+            /// The result is finite for finite inputs. In two cases, the result is 0 and `state` is
+            /// unchanged: an input that the effect reads is not finite, or `dt` is negative and the
+            /// effect reads it.
             #[inline]
             pub fn regressor(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
                 match &self.0 {
@@ -265,7 +265,7 @@ impl<T: Real> Effect<T> {
         self.info().name
     }
 
-    /// The same effect with one shape parameter changed.
+    /// Returns this effect with one shape parameter changed.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no such shape parameter or if the value lies outside its
@@ -281,8 +281,8 @@ impl<T: Real> Effect<T> {
         Self::try_from_name(info.name, own)
     }
 
-    /// The contribution of a term with this gain to the output. It is gain times regressor, except
-    /// for a delay.
+    /// The contribution of a term with this gain to the output. Except for a delay, the
+    /// contribution is the gain times the regressor.
     ///
     /// The gain of a [`Delay`] is a time, and the contribution is the delayed output minus the
     /// output. For a positive gain, this contribution is not linear in the gain. Overflows, and

@@ -10,8 +10,9 @@
 //! - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 //! - n ≥ 1: sharpness of the knee, larger is sharper.
 //!
-//! [`law`] implements this equation. With `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the
-//! path p, `dp = rho·|dx|`, the equation becomes `dzeta/dp = f(zeta)`, which does not contain time:
+//! [`law`] implements this equation. Let `d = sgn(x')`, `zeta = d·eta` and `c = 2·sigma - 1`. The
+//! path p is defined by `dp = rho·|dx|`. The equation then becomes `dzeta/dp = f(zeta)`, which does
+//! not contain time:
 //!
 //! - loading, `zeta >= 0`: `f = 1 - zeta^n`;
 //! - unloading, `zeta < 0`: `f = 1 + c·|zeta|^n`.
@@ -20,8 +21,8 @@
 //! time, so the result does not depend on the sampling rate.
 //!
 //! Two methods integrate the equation along the path. Both keep `|eta| <= 1` for any increment.
-//! - [`BoucWen::advance_split`] splits a long increment, so a jump of any size is accurate. `f64`
-//!   uses this method, for identification.
+//! - [`BoucWen::advance_split`] splits a long increment, so the result is accurate for an increment
+//!   of any size. `f64` uses this method, for identification.
 //! - [`BoucWen::advance_bounded`] takes any increment in one step, so the computing time is
 //!   bounded. `f32` uses this method, for control loops.
 //!
@@ -41,8 +42,8 @@
 //!
 //! If `n·(1 - zeta) <= 0.03`, the rest of the path follows a logistic equation with a closed-form
 //! solution. The local error determines where a long increment is split, so the cost of a jump
-//! grows only with `ln(sigma)`. A jump from one saturation to the opposite one requires at most 30
-//! powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6.
+//! grows only with `ln(sigma)`. A jump from one saturation to the opposite saturation evaluates at
+//! most 30 powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6.
 //!
 //! # The bounded-time step
 //! For any increment, the step evaluates one power `a^(n-1)` and at most two coarse powers. In

@@ -144,8 +144,8 @@ impl<T: Real> BoucWen<T> {
         direction * bounded::follow(direction * eta, path, &self.constants)
     }
 
-    /// Eta after an increment of the input [input unit]. A long increment is split, so a jump of
-    /// any size is accurate.
+    /// Eta after an increment of the input [input unit]. A long increment is split, so the result
+    /// is accurate for an increment of any size.
     ///
     /// The method is exact for `n = 1` and `n = 2`, and of third order for any other n.
     #[inline]

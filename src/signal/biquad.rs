@@ -34,7 +34,7 @@ mod prewarped;
 /// sequence of `dt`. Here, `band` and `low` are the values of the two integrators. The output of a
 /// low-pass that starts at rest is therefore never further from `c` than at the start. If the
 /// filter starts at rest and `dt` equals the sample time, two limits apply. The output of a
-/// low-pass is at most `2 + 4·q/π` times the largest sample, and the output of a notch is at most 3
+/// low-pass is at most `2 + 4·q/π` times the largest sample. The output of a notch is at most 3
 /// times the largest sample. These limits were computed on a grid of `frequency` and `q`
 /// (`tests/signal/filters.rs`).
 ///
@@ -154,8 +154,8 @@ crate::checked! {
 impl<T: Real> Biquad<T> {
     /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
-    /// The filter starts at rest at the first good sample, and the output is then that sample. A
-    /// sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
+    /// The filter starts at rest at the first good sample, and the output then equals this sample.
+    /// A sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
     /// leaves the state unchanged and returns the last output, or zero before the first good
     /// sample. If the next state would overflow, the filter restarts at rest at this sample.
     #[inline]

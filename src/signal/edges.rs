@@ -26,8 +26,8 @@ crate::checked::stored! {
     ///   without a count, the velocity is zero and the status is [`RateStatus::Stopped`]. A speed
     ///   below `count/longest_gap` is therefore reported as a stop.
     /// * **Reversal**: after a reversal, the first count passes the same encoder line as the
-    ///   previous count, so the axis has moved by one count less. Dither of one count gives zero
-    ///   velocity.
+    ///   previous count. The axis has therefore moved by one count less. Dither of one count gives
+    ///   zero velocity.
     /// * **Start**: the first count only locates an encoder line. The second count gives the first
     ///   velocity.
     /// * **Bad samples**: a bad sample does not change the velocity, but its `dt` is included in T.
@@ -113,10 +113,10 @@ crate::checked! {
         Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
-    /// The same configuration for positions modulo `period > 0` \[channel unit\], such as those of
-    /// a counter.
+    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// period must be positive.
     ///
-    /// Between two good samples the axis must move by less than half a period.
+    /// Between two good samples, the axis must move by less than half a period.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
@@ -131,8 +131,8 @@ impl<T: Real> EdgeVelocity<T> {
     /// The velocity \[channel unit/s\] at a `position` \[channel unit\] measured `dt` \[s\] after
     /// the last call.
     ///
-    /// `dt` is the time since the last call, even if the last sample was bad. If the distance from
-    /// the last position overflows, the measurement restarts.
+    /// `dt` is the time since the last call, even if the last sample was bad. If the difference
+    /// from the last position overflows, the measurement restarts.
     #[inline]
     pub fn step(
         &self,

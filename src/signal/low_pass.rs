@@ -12,7 +12,7 @@ crate::checked::stored! {
     /// `1/(2π·tau)` \[Hz\], with a relative error of the order of `dt/tau`. For slow signals, the
     /// delay is tau and the gain is 1.
     ///
-    /// The filter starts at rest at the first good sample, and the output is then that sample.
+    /// The filter starts at rest at the first good sample, and the output then equals this sample.
     /// Except for rounding errors, the output stays within the range of the samples. The output is
     /// a compensated sum, so it reaches a constant input even in `f32`.
     ///

@@ -95,7 +95,7 @@ crate::checked! {
         Ok(Plausible { low, high, rate, sample_period, stuck_after, longest_dt })
     }
 
-    /// The same check with a positive limit `rate` \[signal unit/s\] on the rate of change.
+    /// Sets the largest rate of change `rate` \[signal unit/s\], which must be positive.
     ///
     /// For an angle that wraps around, a rate limit would reject each wrap. Instead, check the
     /// range of the velocity from [`Rates`](crate::signal::Rates) with its period.
@@ -106,8 +106,8 @@ crate::checked! {
     /// After a reading has repeated for `t` seconds, the check also accepts a spike of up to
     /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`, where
     /// `distance` is the height of the spike. [`with_sample_period`](Self::with_sample_period)
-    /// bounds the spike and this time. Use it for a sensor that is not synchronous with the loop,
-    /// or whose readings repeat while the signal is constant, such as an encoder.
+    /// bounds the spike and this time. Use this setting for a sensor that is not synchronous with
+    /// the loop, or whose readings repeat while the signal is constant, such as an encoder.
     ///
     /// While the check rejects samples, the permitted difference grows with time. If the signal has
     /// in fact jumped, the check accepts the new value after the time `distance/rate`, rounded up
@@ -125,7 +125,7 @@ crate::checked! {
         Ok(Plausible { rate, ..sensor })
     }
 
-    /// The same check for a sensor with a sampling period of at most `sample_period` \[s\].
+    /// Sets the longest sampling period of the sensor, `sample_period` \[s\].
     ///
     /// Include the jitter of the sensor and its bus in this period. The check then assumes that
     /// every reading is at most this old, and the next reading may differ by
@@ -155,7 +155,7 @@ crate::checked! {
         Ok(Plausible { sample_period, ..sensor })
     }
 
-    /// The same check with a longest `dt` \[s\], which replaces a longer or unusable `dt`.
+    /// Sets the longest `dt` \[s\], which replaces a longer or unusable `dt`.
     ///
     /// A timer that wraps may report a negative `dt`, or a `dt` of an hour. Without this setting,
     /// the check would then accept one spike anywhere in the range, and reject the true samples
@@ -170,7 +170,7 @@ crate::checked! {
 }
 
 impl<T: Real> Plausible<T> {
-    /// The same check, which also rejects a reading that has repeated `samples` times, because the
+    /// Sets the number of repetitions `samples` after which a reading is rejected, because the
     /// sensor may be stuck. A value of 0 disables this rule.
     ///
     /// The check then rejects each sample until the reading changes. If this prevents the machine
@@ -189,8 +189,8 @@ impl<T: Real> Plausible<T> {
 
     /// Checks a sample taken `dt` \[s\] after the previous one.
     ///
-    /// Set `moves` if the machine moves, so that the signal must change, for example if the command
-    /// or another sensor has changed.
+    /// Set `moves` to `true` if the machine moves, so that the signal must change. Indications are
+    /// a change in the command or in another sensor.
     ///
     /// A `dt` of zero adds no time. With a rate limit and without a sample period, the sample after
     /// a change must then have the same value. The longest `dt` (see

@@ -56,8 +56,8 @@ crate::checked! {
         Ok(Ramp { rate, time_constant, longest_dt })
     }
 
-    /// The same ramp with a longest `dt` \[s\] (default: any finite `dt`). A longer `dt` leaves the
-    /// reference unchanged.
+    /// Sets the longest `dt` \[s\] (default: any finite `dt`). A longer `dt` leaves the reference
+    /// unchanged.
     ///
     /// Use the longest `dt` of the controller. Without this limit, a timer that wraps would move
     /// the reference to its target in one sample. The controller would reject this sample, and

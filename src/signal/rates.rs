@@ -39,7 +39,7 @@ crate::checked::stored! {
     /// is not much larger than h.
     ///
     /// * **First sample**: velocity and acceleration start at zero. On an axis that moves at the
-    ///   velocity V, the computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a
+    ///   velocity V, the computed velocity is then `V·(1 − e^(−t/tau))`. The acceleration has a
     ///   pulse with the height `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time
     ///   constants.
     /// * **Bad samples**: if the position is not finite, or if `dt` is not positive and finite, the
@@ -97,7 +97,7 @@ crate::data! {
         Settling,
         /// A good sample after an unknown time. [`Rates`] holds velocity and acceleration.
         Resumed,
-        /// No count for longer than the longest gap. The velocity of an
+        /// No count has occurred within the longest gap. The velocity of an
         /// [`EdgeVelocity`](super::EdgeVelocity) is zero.
         Stopped,
         /// A bad sample. The last good velocity and acceleration are held.
@@ -169,10 +169,10 @@ crate::checked! {
     ///
     /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. This
     /// filter has the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its
-    /// amplitude and a lag of 22°, and the acceleration has 86 % of its amplitude and a lag of 44°.
-    /// The delays are `0.064/f_c` and `0.127/f_c`. The error of the model is larger with these
-    /// causal derivatives, because the smoother of the fit has zero phase. A shorter tau reduces
-    /// the delay but increases the noise.
+    /// amplitude and a lag of 22°. The acceleration has 86 % of its amplitude and a lag of 44°. The
+    /// delays are `0.064/f_c` and `0.127/f_c`. The error of the model is larger with these causal
+    /// derivatives, because the smoother of the fit has zero phase. A shorter tau reduces the delay
+    /// but increases the noise.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. The second error includes a
@@ -189,13 +189,13 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// The same estimator for positions modulo `period > 0` \[channel unit\], such as those of a
-    /// counter.
+    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// period must be positive.
     ///
     /// The position of the motion is unwrapped, so it continues when the counter wraps. Between two
-    /// good samples the axis must move by less than half a period, which
-    /// `period > 2·|v|·longest_gap` ensures for every gap. Beyond 2³¹ turns, the position is wrong
-    /// by whole periods, but velocity and acceleration are still correct.
+    /// good samples, the axis must move by less than half a period. The condition
+    /// `period > 2·|v|·longest_gap` ensures this for every gap. Beyond 2³¹ turns, the position is
+    /// wrong by whole periods, but velocity and acceleration are still correct.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
@@ -205,7 +205,7 @@ crate::checked! {
         Ok(Rates { period, ..rates })
     }
 
-    /// The same estimator with another longest gap \[s\], which must be positive.
+    /// Sets the longest gap \[s\], which must be positive.
     ///
     /// The longest gap must exceed the longest `dt` of the loop in normal operation.
     ///

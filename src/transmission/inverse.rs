@@ -40,11 +40,11 @@ const MOST_EVALUATIONS: u32 = 100;
 impl<T: Real> Inverse<T> {
     /// The input [input unit] for which the forward model gives `desired_output`.
     ///
-    /// The forward model then returns `desired_output` with an error of at most 16 machine epsilons
-    /// times the sum of the magnitudes in its equation, including the last input. This bound is
-    /// never below the smallest normal number. The solver is a secant method inside a bracket that
-    /// contains the solution. It usually needs one or two evaluations of the forward model, and at
-    /// most 100.
+    /// For this input, the output of the forward model equals `desired_output` up to a small error.
+    /// The error is at most 16 machine epsilons times the sum of the magnitudes in the equation,
+    /// including the last input. If this bound is below the smallest normal number, the smallest
+    /// normal number applies instead. The solver is a secant method inside a bracket that contains
+    /// the solution. It usually needs one or two evaluations of the forward model, and at most 100.
     ///
     /// The first step does not change eta, as in the forward model. In two cases, a step leaves the
     /// state unchanged and returns the last input, or zero if there is none:

@@ -124,13 +124,13 @@ impl<T: Real> Estimator<T> {
         Self::fixed(initial).within(T::LOWEST, T::HIGHEST)
     }
 
-    /// The same estimate with bounds \[unit of the estimate\].
+    /// Sets the bounds \[unit of the estimate\].
     #[must_use]
     pub const fn within(self, low: T, high: T) -> Self {
         Self { low, high, ..self }
     }
 
-    /// The same estimate with an adaptation gain and a constant leakage \[1/s\].
+    /// Sets the adaptation gain and a constant leakage rate \[1/s\].
     ///
     /// An estimate with a gain requires `low < high`. Set the bounds with [`within`](Self::within),
     /// or start from [`free`](Self::free).

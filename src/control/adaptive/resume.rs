@@ -14,10 +14,14 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// State whose first step on `input` gives the command `output` \[command unit\].
     ///
     /// The estimates have their initial values. The accumulated error z is chosen so that the
-    /// adaptive law and the feed-forward together give `output`. No such z exists if beta_hat is
-    /// zero, if the required z exceeds its limit, if the command limits exclude `output`, or if the
-    /// sample is bad. In these cases, the command jumps, unless the slew-rate limit or the lag of
-    /// the first-order form limits its rate.
+    /// adaptive law and the feed-forward together give `output`. No such z exists if
+    /// - beta_hat is zero,
+    /// - the required z exceeds its limit,
+    /// - the command limits exclude `output`, or
+    /// - the sample is bad.
+    ///
+    /// In these cases, the command jumps, unless the slew-rate limit or the lag of the first-order
+    /// form limits its rate.
     ///
     /// This state has no fault. For a running state, use [`Adaptive::resume`].
     ///
