@@ -21,11 +21,11 @@
 //! [`Transmission::nearest_invertible`] returns a transmission that satisfies it.
 //!
 //! # Noise at the hysteresis input
-//! Noise on the input causes false reversals. With the first set, noise of 0.05 N·m rms on `tau_i`
-//! changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of the model,
-//! with a half-width of four standard deviations of the noise, reduces this error to 0.74 N·m rms.
-//! For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms. Use a play only on a
-//! measured input, because it delays each reversal by its width.
+//! Noise on the input causes false reversals. With this first parameter set, noise of 0.05 N·m rms
+//! on `tau_i` changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of
+//! the model, with a half-width of four standard deviations of the noise, reduces this error to
+//! 0.74 N·m rms. For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms. Use a play
+//! only on a measured input, because it delays each reversal by its width.
 
 use crate::error::must_be_finite;
 use crate::hysteresis::{BoucWen, BoucWenState};

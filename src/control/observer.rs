@@ -171,7 +171,7 @@ impl<T: Real> DisturbanceObserver<T> {
         self.longest_dt
     }
 
-    /// Time from a command to its effect in the measured output \[s\].
+    /// Time from a command to its effect on the measured output \[s\].
     pub const fn latency(&self) -> T {
         self.latency
     }
@@ -180,9 +180,10 @@ impl<T: Real> DisturbanceObserver<T> {
     ///
     /// Call this method at every sample, before the controller. A sample is bad if `dt` is not
     /// positive or too long, or if the command or the output is not finite. After a bad sample, the
-    /// estimate is held, and the `dt` of this sample is added to the next `dt`. If the `dt` itself
-    /// is unusable, the next `dt` counts twice. If the estimate overflows, it is held, and the lags
-    /// restart at the next good sample. For any state, the estimate is finite and within ±limit.
+    /// estimate is held, and the `dt` of this sample is added to the next `dt`. If the `dt` of the
+    /// bad sample is itself invalid, the next `dt` is counted twice. If the estimate overflows, it
+    /// is held, and the lags restart at the next good sample. For any state, the estimate is finite
+    /// and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Output<T> {
         let status = if self.advance(state, at) {

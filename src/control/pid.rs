@@ -110,8 +110,8 @@ impl<T: Real> Pid<T> {
     /// Processes one sample and returns the command \[command unit\] and the status.
     ///
     /// The command is finite and within the limits for any input **and any state**, including a
-    /// stored state and a state of another controller. A bad sample leaves the state unchanged,
-    /// except for the fault counter and the time of the bad samples.
+    /// stored state and a state from a controller with other settings. A bad sample leaves the
+    /// state unchanged, except for the fault counter and the time of the bad samples.
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let mut velocity = at.velocity;

@@ -19,17 +19,17 @@
 //!   conservative. With eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is
 //!   several times eps.
 //! - **Asymmetric cycles.** A load or a bias makes the half-periods unequal. The first harmonic of
-//!   such a command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low: by 5 %
-//!   for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
+//!   an asymmetric command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low:
+//!   by 5 % for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
 //!   `centre + d·(2·D − 1)` as the next centre.
 //! - **Sampling.** The relay switches up to one `dt` after the crossing. The measured period is
 //!   therefore longer than with a continuous relay: by two `dt` on average, and by at most four
 //!   `dt`. A sampled controller has the same average delay, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the experiment fails with `OutputOutOfRange` or `NoOscillation`.
-//! - **Duration.** The experiment ends within `longest_time`, because the time of bad samples is
-//!   included. A sample without a usable `dt` adds `longest_dt`. A failure latches the safe command
-//!   until [`RelayState::acknowledge`] is called.
+//! - **Duration.** The experiment ends within `longest_time` even if samples are bad, because the
+//!   time of bad samples is included. A sample without a usable `dt` adds `longest_dt`. A failure
+//!   latches the safe command until [`RelayState::acknowledge`] is called.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
 //! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay

@@ -209,8 +209,8 @@ crate::data! {
     /// as `sent`. For [`IterativeLearning`](super::IterativeLearning), set `learns` to `false`.
     ///
     /// Report `AsCommanded` if the drive deviates slightly from the command for a reason other than
-    /// a limit, such as an offset or a measurement of the current. `Command` with such a value
-    /// would stop or shift the integral until the difference is zero.
+    /// a limit, such as an offset or a measured current. Otherwise, the integral would stop or
+    /// shift until the difference is zero.
     pub enum Applied<T> {
         /// The drive applied the command.
         AsCommanded,

@@ -316,7 +316,7 @@ effect! {
     /// output. The initial state is the first output. The filter uses a zero-order hold, so its
     /// step response is exact for any dt. Because of rounding errors, the state does not quite
     /// reach its target. The relative error is up to `tau/dt` times half the machine epsilon. In
-    /// `f32` this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
+    /// `f32`, this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
     ///
     /// This effect is an output stage: it reads the sum of all terms before it.
     ///

@@ -70,8 +70,8 @@
 //!   distance to saturation decays as in the loading step, at the rate n.
 //!
 //! # Accuracy
-//! The table lists the error of `kappa_eta·eta` for the input `16·sin(pi·t)` at 1 kHz with the
-//! first parameter set of the paper:
+//! The table lists the error of `kappa_eta·eta` for the input `16·sin(pi·t)` at 1 kHz and the first
+//! parameter set of Nguyen et al. (2018):
 //!
 //! | step | error \[N·m\] |
 //! |---|---|

@@ -14,8 +14,8 @@
 //! | [`tanh`] | all | 4e-7 of the result |
 //!
 //! `cargo test --test exhaustive -- --ignored` checks the errors in this table at all arguments,
-//! and the error of the power at every eighth argument. For an argument outside these ranges, each
-//! function returns an arbitrary float.
+//! and the error of the power at every eighth argument. For an argument outside these ranges, the
+//! result is arbitrary.
 
 use core::f32::consts::{LN_2, LOG2_E};
 

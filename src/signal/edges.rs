@@ -30,9 +30,9 @@ crate::checked::stored! {
     ///   zero velocity.
     /// * **Start**: the first count only locates an encoder line. The second count gives the first
     ///   velocity.
-    /// * **Bad samples**: a bad sample does not change the velocity, but its `dt` is included in T.
-    ///   After a `dt` that is negative or not finite, the time is unknown, and the next count
-    ///   starts a new interval.
+    /// * **Bad samples**: a bad sample does not change the velocity, but T includes its `dt`. After
+    ///   a `dt` that is negative or not finite, the time is unknown, and the next count starts a
+    ///   new interval.
     ///
     /// Source: T. Ohmae et al., *A microprocessor-controlled high-accuracy wide-range speed
     /// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method).
@@ -99,8 +99,8 @@ crate::checked! {
     /// Velocity from positions that change by multiples of `count` \[channel unit\].
     ///
     /// The velocity is averaged over `time_constant` \[s\] if several counts occur in this time. If
-    /// no count occurs for `longest_gap` \[s\], the axis counts as stopped. All three arguments
-    /// must be positive.
+    /// no count occurs for `longest_gap` \[s\], the axis is regarded as stopped. All three
+    /// arguments must be positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or

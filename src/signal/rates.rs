@@ -170,9 +170,9 @@ crate::checked! {
     /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. This
     /// filter has the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its
     /// amplitude and a lag of 22°. The acceleration has 86 % of its amplitude and a lag of 44°. The
-    /// delays are `0.064/f_c` and `0.127/f_c`. The error of the model is larger with these causal
-    /// derivatives, because the smoother of the fit has zero phase. A shorter tau reduces the delay
-    /// but increases the noise.
+    /// delays are `0.064/f_c` and `0.127/f_c`. With these causal derivatives, the error of the
+    /// model is larger than in the fit, which uses zero-phase derivatives. A shorter tau reduces
+    /// the delay but increases the noise.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. The second error includes a

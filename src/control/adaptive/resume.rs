@@ -84,7 +84,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Restarts a state so that the next step on `input` gives the command `output` \[command
     /// unit\].
     ///
-    /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample
+    /// This method applies [`AdaptiveState::resume_from`] to a running state. An invalid sample
     /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
     ///
     /// The first-order form needs a `dt` to compute the rate of the reference. It uses `input.dt`

@@ -28,9 +28,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     ///
     /// A bad sample leaves the state unchanged and holds the last good command; see
     /// [`control`](crate::control). A sample is also bad if `dt` is longer than
-    /// [`longest_dt`](Self::longest_dt), or if its numbers are so large that the law overflows
-    /// ([`Fault::Overflow`]). The command is within the limits **for any state**, including a
-    /// stored state and a state of another law.
+    /// [`longest_dt`](Self::longest_dt), or if its numbers are so large that the arithmetic
+    /// overflows ([`Fault::Overflow`]). The command is within the limits **for any state**,
+    /// including a stored state and a state from a law with other settings.
     #[inline]
     pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         if state.held.may_step() {

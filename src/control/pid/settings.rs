@@ -145,8 +145,8 @@ crate::data! {
         pub deadband: T,
         /// Period of an output that wraps \[output unit\], positive, such as 360°.
         ///
-        /// The error and the changes in the output are then taken in the shorter direction, and are
-        /// at most half a period. A period requires b = 1, and c = 0 or 1.
+        /// The error and the changes in the output are then measured in the shorter direction, so
+        /// they are at most half a period. A period requires b = 1, and c = 0 or 1.
         #[cfg_attr(feature = "serde", serde(default = "none"))]
         pub period: Option<T>,
         /// Range and slew-rate limit of the command.

@@ -109,8 +109,8 @@ impl<T: Real> PidState<T> {
     /// controller. The derivative starts at zero. The next step at the same sample adds only one
     /// step of the integral. `at.dt` is ignored.
     ///
-    /// A number that is not finite, or an overflow, is treated as a bad sample and returns a fault.
-    /// A latched safe command stays latched, and the fault counter is kept.
+    /// If a number is not finite or an overflow occurs, the sample is bad, and the method returns
+    /// the fault. A latched safe command stays latched, and the fault counter is kept.
     ///
     /// With `k_i` = 0, the integral then returns to zero; see
     /// [`PidSettings::k_i`](super::PidSettings::k_i).
