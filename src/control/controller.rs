@@ -1,4 +1,4 @@
-//! The common interface of the controllers, with which one loop can run any controller.
+//! The common interface of the controllers. A loop that uses it can run any controller.
 
 use super::{
     Adaptive, AdaptiveInput, AdaptiveState, Applied, Limits, Pid, PidInput, PidState, Status,

@@ -1,4 +1,4 @@
-//! Iterative learning control: a feed-forward from the error of earlier cycles.
+//! Iterative learning control: a feed-forward from the errors of earlier cycles.
 //!
 //! ```text
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
@@ -53,8 +53,8 @@ crate::checked::stored! {
     ///
     /// The learned values are stored in two buffers (arrays or borrowed slices) of the same length,
     /// with one number per cell. A cycle of 200 cells in `f32` requires 1600 bytes. Use about ten
-    /// cells per second for each hertz of the filter's corner frequency. A cycle must have fewer
-    /// cells than the shortest cycle has samples.
+    /// cells per second for each hertz of the filter's corner frequency. The number of cells must
+    /// be smaller than the number of samples in the shortest cycle.
     ///
     /// ```
     /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
@@ -264,7 +264,7 @@ impl<T: Real> IterativeLearning<T> {
     ///   and does not apply its safe command. If the phase signal can fail, omit the feed-forward
     ///   after a few such samples.
     /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
-    ///   and the sample is not used.
+    ///   but the sample is not used for learning.
     /// - A phase change of more than four cells in one sample, forward or backward, counts as a
     ///   jump. The cell before a jump and the `lead` cells before the new cell are not updated. For
     ///   example, the phase jumps if a walking step ends early at heel contact. The last

@@ -10,11 +10,11 @@
 //! - the command overflows.
 //!
 //! A bad sample holds the last good command. It leaves the state unchanged, except for the fault
-//! counter and the time of the bad samples. The [`Status`] reports the bad input. After too many
-//! bad samples, a [`Pid`], [`Adaptive`] or [`Relay`] applies the safe command of its [`Fallback`]
-//! until [`acknowledge`](Controller::acknowledge) is called. For any state, the command of these
-//! three controllers is finite and within the [`Limits`]. To reject finite but implausible numbers,
-//! pass each input through [`signal::Plausible`](crate::signal::Plausible).
+//! counter and the accumulated time of the bad samples. The [`Status`] reports the bad input. After
+//! too many bad samples, a [`Pid`], [`Adaptive`] or [`Relay`] applies the safe command of its
+//! [`Fallback`] until [`acknowledge`](Controller::acknowledge) is called. For any state, the
+//! command of these three controllers is finite and within the [`Limits`]. To reject finite but
+//! implausible numbers, pass each input through [`signal::Plausible`](crate::signal::Plausible).
 //!
 //! **In flash.** [`constant!`](crate::constant) makes a checked `static` or `const` of every
 //! configuration except a [`Compensator`], which contains a [`Model`](crate::model::Model).

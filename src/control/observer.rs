@@ -8,8 +8,8 @@
 //!
 //! The observer compares the applied command with the command that the nominal plant needs for the
 //! measured output. The difference, filtered through Q, is added to the next command. At
-//! frequencies below `1/tau`, the loop then behaves as if the plant were the nominal plant, unless
-//! a limit is active.
+//! frequencies below `1/tau`, the loop then behaves as if it contained the nominal plant, unless a
+//! limit is active.
 //!
 //! Take alpha, wn and zeta from the drive's specification or from a bench record.
 //!
@@ -50,10 +50,10 @@ crate::checked::stored! {
     ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
     /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
     /// ```
-    /// The lags are stable for any `dt`, which may vary, but the closed loop requires a `dt` well
-    /// below tau. Even with zero latency, the command affects the output only at the next sample.
-    /// At frequencies above `1/tau`, white noise on y appears in the command, multiplied by about
-    /// `1/(alpha·(wn·tau)²)`.
+    /// The lags are stable for any `dt`, and `dt` may vary. However, the closed loop requires a
+    /// `dt` well below tau. Even with zero latency, the command affects the output only at the next
+    /// sample. At frequencies above `1/tau`, white noise on y appears in the command, multiplied by
+    /// about `1/(alpha·(wn·tau)²)`.
     ///
     /// ```
     /// use bowden::control::{
@@ -133,8 +133,8 @@ crate::checked! {
         Ok(DisturbanceObserver { plant, time_constant, limit, longest_dt, latency, inverse })
     }
 
-    /// Sets the latency \[s\]: the time from a command to its effect on the measured output, not
-    /// negative.
+    /// Sets the latency \[s\] from a command to its effect on the measured output. The latency must
+    /// not be negative.
     ///
     /// The latency is the sum of the whole-sample delays, half a sample for the zero-order hold,
     /// and the lags of drive and sensor. The response of the nominal plant is not included.

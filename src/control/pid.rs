@@ -111,7 +111,7 @@ impl<T: Real> Pid<T> {
     ///
     /// The command is finite and within the limits for any input **and any state**, including a
     /// stored state and a state from a controller with other settings. A bad sample leaves the
-    /// state unchanged, except for the fault counter and the time of the bad samples.
+    /// state unchanged, except for the fault counter and the accumulated time of the bad samples.
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let mut velocity = at.velocity;
@@ -186,12 +186,13 @@ impl<T: Real> Pid<T> {
     /// Call this method between two steps. If the applied command is known, the slew-rate limit,
     /// back-calculation and a bumpless start continue from this command. The effect on the integral
     /// depends on the anti-windup method:
-    /// - With back-calculation and a known applied command, the part that the drive cut off
-    ///   corrects the integral at the next sample. The same applies to [`AntiWindup::Conditional`]
+    /// - With back-calculation and a known applied command, the integral is corrected at the next
+    ///   sample by the part that the drive cut off. The same applies to [`AntiWindup::Conditional`]
     ///   with a slew-rate limit.
     /// - With [`AntiWindup::None`], the integral does not change.
-    /// - In all other cases, the last change of the integral is reversed as far as it exceeds the
-    ///   drive's limit. If the applied command is unknown, the whole change is reversed.
+    /// - In all other cases, the last change of the integral is reversed to the extent that it
+    ///   exceeds the drive's limit. If the applied command is unknown, the whole change is
+    ///   reversed.
     ///
     /// The next command still contains the full demand, so the loop recovers as soon as the drive
     /// does. See [`Applied`].
@@ -232,8 +233,8 @@ impl<T: Real> Pid<T> {
     /// All settings may change. The integral is adjusted so that, at the last good sample, the new
     /// terms add up to the applied command. If the same limit clamps the old sum and the new sum,
     /// the integral is not adjusted. The new sum may then lie beyond this limit. The next command
-    /// differs only by one increment of the integral. If the new limits exclude the command, the
-    /// limits take priority.
+    /// differs from the applied command only by one increment of the integral. If the new limits
+    /// exclude the command, the limits take priority.
     ///
     /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before you
     /// change to PIV, pass samples that contain the velocity. Without an earlier good sample, or if

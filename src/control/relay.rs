@@ -1,4 +1,4 @@
-//! Relay experiment: measures the ultimate gain and period of a loop, for PI gains.
+//! Relay experiment: measures the ultimate gain and period of a loop to tune a PI.
 //!
 //! ```text
 //! command = centre + d   from y < y_r − eps on, until y > y_r + eps

@@ -20,8 +20,8 @@ crate::data! {
         /// All inputs were good; the state has advanced.
         Good,
         /// A regressor was bad, and its term was dropped. The loop is closed, and the estimates do
-        /// not change. For [`IterativeLearning`](crate::control::IterativeLearning), the error was
-        /// unusable, or the phase has jumped.
+        /// not change. For [`IterativeLearning`](crate::control::IterativeLearning), this status
+        /// means that the error is not usable or that the phase has jumped.
         Degraded(Fault),
         /// A bad sample: the state is unchanged, and the last good command is held.
         Held(Fault),

@@ -5,7 +5,7 @@ use crate::signal::Compensated;
 use crate::Real;
 
 crate::data! {
-    /// Leakage of an estimate back to its prior, which prevents drift.
+    /// Leakage of an estimate towards its prior, to prevent drift.
     pub enum Leakage<T> {
         /// No leakage: only the bounds limit the estimate.
         None,

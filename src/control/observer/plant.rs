@@ -35,7 +35,7 @@ crate::checked::stored! {
 crate::checked! {
     NominalPlant<T>;
 
-    /// A plant with alpha \[output unit/command unit\], nonzero; wn > 0 \[rad/s\]; zeta ≥ 0.
+    /// A plant with alpha ≠ 0 \[output unit/command unit\], wn > 0 \[rad/s\] and zeta ≥ 0.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"`, `"natural_frequency"` or

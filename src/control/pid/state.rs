@@ -107,7 +107,7 @@ impl<T: Real> PidState<T> {
     /// The integral is set so that, at the sample `at`, all terms including the feed-forward add up
     /// to `output`, clamped to the limits. Use this method after manual control or another
     /// controller. The derivative starts at zero. The next step at the same sample adds only one
-    /// step of the integral. `at.dt` is ignored.
+    /// increment of the integral. `at.dt` is ignored.
     ///
     /// If a number is not finite or an overflow occurs, the sample is bad, and the method returns
     /// the fault. A latched safe command stays latched, and the fault counter is kept.

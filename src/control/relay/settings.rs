@@ -38,8 +38,8 @@ crate::data! {
         /// d, the distance from the centre to each level \[command unit\]: finite, nonzero, and
         /// with the sign of the plant's gain. Both levels must lie within `limits`.
         pub amplitude: T,
-        /// Hysteresis eps \[output unit\], not negative. Choose at least the peak of the noise;
-        /// otherwise the relay chatters.
+        /// Hysteresis eps \[output unit\], not negative. Choose at least the peak value of the
+        /// noise. Otherwise, the relay chatters.
         pub hysteresis: T,
         /// Largest deviation of the output from the reference \[output unit\], greater than
         /// `hysteresis`.

@@ -34,8 +34,10 @@ crate::data! {
         ///
         /// On the tested plants (lags with and without a delay), the gain margin is above 2.5 and
         /// the phase margin is above 45°. These margins include the error of the describing
-        /// function, which may overestimate k_u by 27 %. B. Tyreus, W. Luyben, "Tuning PI
-        /// controllers for integrator/dead time processes", *Ind. Eng. Chem. Res.* 31, 1992.
+        /// function, which may overestimate k_u by 27 %.
+        ///
+        /// Source: B. Tyreus, W. Luyben, "Tuning PI controllers for integrator/dead time
+        /// processes", *Ind. Eng. Chem. Res.* 31, 1992.
         #[default]
         TyreusLuyben,
         /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
@@ -43,7 +45,8 @@ crate::data! {
         /// On the same plants, the gain margin may be as low as 1.5 and the phase margin as low as
         /// 15°.
         ///
-        /// J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans. ASME* 64, 1942.
+        /// Source: J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans.
+        /// ASME* 64, 1942.
         ZieglerNichols,
     }
 
