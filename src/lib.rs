@@ -2,8 +2,8 @@
 //!
 //! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
 //! on the present input and on earlier inputs. The crate models this hysteresis, in torque or in
-//! displacement, with the **Bouc-Wen** equation. To this model, you can add **effects** from a
-//! catalogue, such as viscous friction and backlash.
+//! displacement, with the **Bouc-Wen** equation. You can add **effects** from a catalogue, such as
+//! viscous friction and backlash, to this model.
 //!
 //! The crate is `no_std`, allocates no memory, contains no unsafe code, and is generic over `f32`
 //! and `f64`. Its run-time dependencies are `num-traits` and `libm`.

@@ -219,9 +219,9 @@ impl<T: Real> Transmission<T> {
     /// `|gain|/|kappa_eta|`. The knee of the loop then becomes rounder, but the loop keeps its
     /// height.
     ///
-    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. At such a
-    /// reversal, the rate of the computed input is unbounded, but the change in one sample is
-    /// bounded. You can therefore apply a slew-rate limit to the computed input.
+    /// At the bound, the slope of the output is zero immediately after a reversal from saturation.
+    /// At such a reversal, the rate of the computed input is unbounded, but the change in one
+    /// sample is bounded. You can therefore apply a slew-rate limit to the computed input.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if the

@@ -238,8 +238,8 @@ effect! {
     /// Hardening hysteresis, whose slope increases with its state.
     ///
     /// Formula: `w(x; g, beta)`. While the state w moves away from zero, `dw/dx = 1 + g·|w|`. While
-    /// w returns, `dw/dx = 1 + (g + 2·beta)·|w|`. At the first sample, w = 0. The state w has the
-    /// unit of x, so the gain is the initial stiffness.
+    /// w returns to zero, `dw/dx = 1 + (g + 2·beta)·|w|`. At the first sample, w = 0. The state w
+    /// has the unit of x, so the gain is the initial stiffness.
     ///
     /// In the Bouc-Wen form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n`, this effect has n = 1,
     /// `z = A·w`, `b = beta` and `b + c = −g`. A [`BoucWen`](crate::hysteresis::BoucWen) has

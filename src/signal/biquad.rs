@@ -207,7 +207,7 @@ impl<T: Real> BiquadState<T> {
         }
     }
 
-    /// A state at rest at a value \[signal unit\].
+    /// A state at rest at the given value \[signal unit\].
     #[inline]
     pub const fn at(value: T) -> Self {
         Self {

@@ -96,7 +96,7 @@ impl<T: Real> LowPassState<T> {
         Self { sum: None }
     }
 
-    /// A state at rest at a value \[signal unit\].
+    /// A state at rest at the given value \[signal unit\].
     #[inline]
     pub const fn at(value: T) -> Self {
         Self {

@@ -195,8 +195,8 @@ impl<T: Real> Plausible<T> {
     /// A `dt` of zero adds no time. With a rate limit and without a sample period, the sample after
     /// a change must then have the same value. The longest `dt` (see
     /// [`with_longest_dt`](Self::with_longest_dt)) replaces a `dt` that is negative, NaN or
-    /// infinite. Without that setting the time is unknown, and any sample in the range is plausible
-    /// until the reading changes. A sample that is not finite is never plausible.
+    /// infinite. Without that setting, the time is unknown, and any sample in the range is
+    /// plausible until the reading changes. A sample that is not finite is never plausible.
     #[inline]
     pub fn step(
         &self,

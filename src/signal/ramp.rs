@@ -110,7 +110,7 @@ fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
 }
 
 impl<T: Real> RampState<T> {
-    /// A state at rest at a value \[signal unit\].
+    /// A state at rest at the given value \[signal unit\].
     pub const fn at(value: T) -> Self {
         let value = Compensated::new(value);
         Self { ramp: value, value }
