@@ -32,8 +32,8 @@
 //!   latches the safe command until [`RelayState::acknowledge`] is called.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
-//! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay
-//! in Ya. Tsypkin, *Relay Control Systems*, 1984.
+//! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric
+//! relay in Ya. Tsypkin, *Relay Control Systems*, 1984.
 
 mod settings;
 mod state;

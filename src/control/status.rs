@@ -26,7 +26,8 @@ crate::data! {
         /// A bad sample: the state is unchanged, and the last good command is held.
         Held(Fault),
         /// Too many bad samples: the safe command is applied until
-        /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
+        /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are
+        /// good.
         ///
         /// The value is the fault of the last of these samples, or the reason for the failure of a
         /// [`Relay`](crate::control::Relay) experiment.

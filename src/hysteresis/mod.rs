@@ -29,7 +29,7 @@
 //! # The splitting step
 //! Let `a = |zeta|`. One power `a^(n-1)` gives `f` and its first two derivatives:
 //! `f' = -n·k·a^(n-1)` and `|f''| = (n-1)·|f'|/a`, with `k = 1` (loading) or `c` (unloading). The
-//! step replaces the Taylor series `dzeta = p·f·(1 + p·f'/2 + p²·(f'² + f·f'')/6)` by a fraction
+//! step replaces the Taylor series `dzeta = p·f·(1 + p·f'/2 + p²·(f'² + f·f'')/6)` with a fraction
 //! that agrees with it to third order:
 //!
 //! `dzeta = p·f / (1 + p·|f'|/2 + p²·(f'²/12 - f·f''/6))`.

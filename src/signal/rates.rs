@@ -175,8 +175,8 @@ crate::checked! {
     /// the delay but increases the noise.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. `OutOfRange` includes a
-    /// `cutoff` for which the time constant is not a positive finite float.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. `OutOfRange` is also returned
+    /// if the time constant is not a positive finite float.
     pub fn for_cutoff(cutoff: T) {
         above_zero!(cutoff, "cutoff");
         let corner: T = of(CORNER);
