@@ -272,8 +272,8 @@ impl<T: Real> IterativeLearning<T> {
     /// - If the phase moves back by up to four cells (jitter), samples are not used until the phase
     ///   returns to the cell that it had reached. With larger jitter, cells are updated several
     ///   times per cycle. In this case, filter the phase, or set `learns` to `false`.
-    /// - The most expensive step completes four cells, each with a sum over `2·half_width + 1`
-    ///   cells.
+    /// - The most expensive step completes four cells, and computes a sum over `2·half_width + 1`
+    ///   cells for each of them.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,

@@ -44,8 +44,8 @@ crate::checked! {
 
     /// Sets the slew-rate limit \[command unit/s\], which must be positive.
     ///
-    /// A slew-rate limit below `2·k_p·noise·rate` also limits the response to noise, and the loop
-    /// may oscillate. Here, `noise` is the largest change in the measured output between two
+    /// A slew-rate limit below `2·k_p·noise·rate` also limits the response to noise. The loop may
+    /// then oscillate. Here, `noise` is the largest change in the measured output between two
     /// samples, and `rate` is the sampling rate \[Hz\]. Choose a higher slew-rate limit or a
     /// smaller gain.
     ///

@@ -80,7 +80,7 @@ pub struct Symmetry {
     /// Parity if all signed signals (motion, input, load, eta and output) change sign along the
     /// whole path. Times keep their sign.
     pub mirror: Parity,
-    /// Parity if only v changes sign, at one instant. For an effect with memory this is
+    /// Parity if only v changes sign, at one instant. For an effect with memory, this is
     /// [`Parity::Neither`].
     pub reversal: Parity,
 }

@@ -8,7 +8,7 @@ crate::checked::stored! {
     /// First-order low-pass filter.
     ///
     /// The output `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its backward
-    /// Euler form. This form is stable for any `dt`, which may vary. The corner is at
+    /// Euler form. This form is stable for any `dt`, and `dt` may vary. The corner is at
     /// `1/(2π·tau)` \[Hz\], with a relative error of the order of `dt/tau`. For slow signals, the
     /// delay is tau and the gain is 1.
     ///
@@ -49,7 +49,8 @@ crate::checked::stored! {
 crate::checked! {
     LowPass<T>;
 
-    /// A low-pass with `time_constant >= 0` \[s\]. With zero, the output is the sample.
+    /// A low-pass with `time_constant >= 0` \[s\]. With a time constant of zero, the output equals
+    /// the sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.

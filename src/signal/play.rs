@@ -44,7 +44,8 @@ crate::checked::stored! {
 crate::checked! {
     Play<T>;
 
-    /// A play with `half_width >= 0` [input unit]. With zero, the output is the input.
+    /// A play with `half_width >= 0` [input unit]. With a half-width of zero, the output equals the
+    /// input.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.

@@ -16,7 +16,7 @@ pub struct Changed<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Changed<T, N> {
-    /// Whether the model was not changed. The compensator then equals the result of
+    /// Whether the model is unchanged. The compensator then equals the result of
     /// [`Compensator::try_new`].
     pub fn is_nothing(&self) -> bool {
         self.sigma.is_none() && self.rho.is_none() && self.left_out().next().is_none()
