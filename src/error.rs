@@ -1,6 +1,7 @@
 //! The error type of the crate: the cause and the name of the parameter.
 //!
-//! The constructors check all parameters. After construction, no step returns a `Result` or panics.
+//! The constructors check all parameters. After construction, no step returns a `Result`, and no
+//! step panics.
 
 use core::fmt;
 

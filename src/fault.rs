@@ -25,8 +25,8 @@ crate::data! {
         /// The command to resume from, or the applied command for a
         /// [`DisturbanceObserver`](crate::control::DisturbanceObserver).
         Command,
-        /// The regressor of an adaptive law, or the term of a compensator, with this index, counted
-        /// from 0. An index above 255 becomes 255.
+        /// The regressor of an adaptive law, or the term of a compensator, with this zero-based
+        /// index. An index above 255 becomes 255.
         Regressor(u8),
         /// An overflow: every input is finite, but the result is not.
         Overflow,

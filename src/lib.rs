@@ -2,8 +2,8 @@
 //!
 //! A pair of Bowden cables transmits a torque with hysteretic friction: the output torque depends
 //! on the present input and on earlier inputs. The crate models this hysteresis, in torque or in
-//! displacement, with the **Bouc-Wen** equation. A catalogue of **effects**, such as viscous
-//! friction and backlash, complements this model.
+//! displacement, with the **Bouc-Wen** equation. You can add **effects** from a catalogue, such as
+//! viscous friction and backlash, to this model.
 //!
 //! The crate is `no_std`, allocates no memory, contains no unsafe code, and is generic over `f32`
 //! and `f64`. Its run-time dependencies are `num-traits` and `libm`.
@@ -58,15 +58,15 @@
 //!
 //! # Conventions
 //! - Configuration and state are separate types.
-//! - `try_new` checks every parameter. After that, nothing panics.
+//! - `try_new` checks every parameter. After construction, no function panics.
 //! - A bad sample leaves the state unchanged, except for fault counters and elapsed times. A sample
 //!   is bad if it contains a NaN, an infinity, or a `dt` that is not positive.
 //! - Equation numbers refer to Nguyen et al. (2018); see [the equations](book::equations).
 //!
 //! # Features
 //! All features are off by default:
-//! - `serde`: every configuration is checked when it is deserialised. A [model](model::Model) is
-//!   read from the file that `bowden identify --model-out` writes.
+//! - `serde`: every configuration is checked when it is deserialised. A [model](model::Model) can
+//!   be read from the file that `bowden identify --model-out` writes.
 //! - `defmt`: the public types implement `defmt::Format`, except samples that borrow channels.
 //! - `std`: the crate links the standard library.
 #![no_std]

@@ -12,9 +12,12 @@
 //! A [`Model`] has a capacity of `N` terms, uses no heap, and is separate from its state. Its
 //! transmission and its terms are optional.
 //!
-//! A sample is bad if `dt` is not positive and finite, if a channel that the model reads is
-//! missing, or if a number that the model reads is not finite. A bad sample leaves the state
-//! unchanged, and the step returns the last good output.
+//! A sample is bad if
+//! - `dt` is not positive and finite,
+//! - a channel that the model reads is missing, or
+//! - a number that the model reads is not finite.
+//!
+//! A bad sample leaves the state unchanged, and the step returns the last good output.
 
 mod curve;
 #[cfg(feature = "serde")]
@@ -44,8 +47,8 @@ crate::data! {
 ///
 /// # Origin
 /// The effect reads the position minus the origin, and the unchanged velocity and acceleration. The
-/// zero of a sensor is arbitrary, but an effect such as `x·|x|` or `x·tanh(v/v_e)` depends on the
-/// distance from a specific position. A gain is therefore valid only with its origin. Shape
+/// zero of a sensor is arbitrary. However, an effect such as `x·|x|` or `x·tanh(v/v_e)` depends on
+/// the distance from a specific position. A gain is therefore valid only with its origin. Shape
 /// parameters that are positions, such as `x_h`, are relative to the origin. The origin does not
 /// shift the transmission's input, which `degradation` reads in addition to its source.
 ///
@@ -99,14 +102,14 @@ pub struct Sample<'a, T> {
 /// In a human-readable format (TOML, JSON), a model has the schema `bowden.model/1`, which
 /// `bowden identify --model-out model.toml` also writes. Reading and writing use no heap. The names
 /// of the channels take 2 KB of stack. The source of a term is `input` or one of `channels`, which
-/// have the order of [`Sample::channels`]. The table `about` may contain any keys. Elsewhere, an
-/// unknown key is an error. A model does not store the names of its channels, and writes them as
-/// `channel_0`, ….
+/// have the order of [`Sample::channels`]. The `about` table may contain any keys. Elsewhere, an
+/// unknown key is an error. A model does not store the names of its channels. It writes them as
+/// `channel_0`, `channel_1` and so on.
 ///
 /// Any other format, such as postcard, stores the values in order, without names. Eight terms with
-/// eight shape parameters take 143 bytes in `f32`. The bytes contain neither their precision nor a
+/// eight shape parameters take 143 bytes in `f32`. The bytes contain neither the float type nor a
 /// version, and identify an effect by its index in [`CATALOGUE`](crate::effect::CATALOGUE). Store
-/// them with a checksum (`to_slice_crc32` of postcard), and write them again after an update of
+/// the bytes with a checksum (`to_slice_crc32` of postcard), and write them again after you update
 /// this crate.
 ///
 /// ```
@@ -338,8 +341,9 @@ impl<T: Real, const N: usize> Model<T, N> {
     /// Like [`step`](Self::step), but also reports the contribution of each term to the output.
     ///
     /// The function calls `share(index, contribution)` once per term, with the output stages last.
-    /// It makes no call for an input stage, or on a bad sample. The output minus the sum of these
-    /// contributions is the contribution of the transmission, which includes the input stages.
+    /// There is no call for an input stage, and none on a bad sample. The output minus the sum of
+    /// these contributions is the contribution of the transmission, which includes the input
+    /// stages.
     ///
     /// ```
     /// use bowden::effect::{Inertia, Motion, Viscous};

@@ -10,23 +10,22 @@
 //! the input on every branch. The slope of eta with respect to the input lies in
 //! `[0, 2·sigma·rho]`. In torque mode the condition is therefore `sigma <= B/(2·kappa_eta·rho)`.
 //! For the first parameter set of Nguyen et al. (2018) this bound is 0.743, but sigma is 98.36. Use
-//! such a set only for simulation and identification: after a reversal, its output falls while its
-//! input rises.
+//! such a set only for simulation and identification, because the output falls while the input
+//! rises after a reversal.
 //!
-//! The condition follows from the slope of the equation. The slope of the `f32` step does not
-//! exceed it up to n = 4 (proved) and up to n = 10 (measured). For n of about 12 or more, the step
-//! may have up to 1.39 times the slope of the equation (see [`hysteresis`](crate::hysteresis)). For
-//! such n, choose sigma below the bound divided by 1.39.
+//! This condition follows from the slope of the equation. Up to n = 4 (proved) and up to n = 10
+//! (measured), the slope of the `f32` step does not exceed this slope. For n of about 12 or more,
+//! the slope of the step may be up to 1.39 times the slope of the equation (see
+//! [`hysteresis`](crate::hysteresis)). For such n, choose sigma below the bound divided by 1.39.
 //! [`Transmission::greatest_invertible_sigma`] returns the bound.
 //! [`Transmission::nearest_invertible`] returns a transmission that satisfies it.
 //!
 //! # Noise at the hysteresis input
-//! Noise on the input causes false reversals. With the first set, noise of 0.05 N·m rms on `tau_i`
-//! changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of the model,
-//! with a half-width of four standard deviations of the noise, reduces this error to 0.74 N·m rms.
-//! For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms (test
-//! `noise_destroys_the_state_and_a_play_guards_it`). Use a play only on a measured input, because
-//! it delays each reversal by its width.
+//! Noise on the input causes false reversals. With this first parameter set, noise of 0.05 N·m rms
+//! on `tau_i` changes `kappa_eta·eta` by 3.7 N·m rms. A [`Play`](crate::signal::Play) upstream of
+//! the model, with a half-width of four standard deviations of the noise, reduces this error to
+//! 0.74 N·m rms. For sigma = 1/2, the play reduces the error from 1.8 to 0.11 N·m rms. Use a play
+//! only on a measured input, because it delays each reversal by its width.
 
 use crate::error::must_be_finite;
 use crate::hysteresis::{BoucWen, BoucWenState};
@@ -157,7 +156,7 @@ impl<T: Real> Transmission<T> {
 
     /// Advances by the input of one sample and returns the output [output unit].
     ///
-    /// The first sample keeps the initial eta. A sample that is not finite leaves the state
+    /// The first sample does not change eta. A sample that is not finite leaves the state
     /// unchanged. The step then returns the output at the last good input, or zero if there is
     /// none.
     #[inline]
@@ -213,16 +212,16 @@ impl<T: Real> Transmission<T> {
 
     /// The nearest transmission with an inverse.
     ///
-    /// If this transmission has an inverse, the result is this transmission.
+    /// If this transmission has an inverse, the method returns it unchanged.
     ///
     /// A sigma above [`greatest_invertible_sigma`](Self::greatest_invertible_sigma) is lowered to
     /// this bound. If no sigma gives an inverse, sigma becomes 1/2 and rho is lowered to
     /// `|gain|/|kappa_eta|`. The knee of the loop then becomes rounder, but the loop keeps its
     /// height.
     ///
-    /// At the bound, the slope of the output is zero at the reversal of a saturated loop. At such a
-    /// reversal, the rate of the computed input is unbounded, but the change in one sample is
-    /// bounded. A slew-rate limit may therefore follow the inverse.
+    /// At the bound, the slope of the output is zero immediately after a reversal from saturation.
+    /// At such a reversal, the rate of the computed input is unbounded, but the change in one
+    /// sample is bounded. You can therefore apply a slew-rate limit to the computed input.
     ///
     /// # Errors
     /// [`Error::Inadmissible`] if the gain is zero; [`Error::OutOfRange`] with `"rho"` if the
@@ -278,8 +277,8 @@ impl<T: Real> Transmission<T> {
     /// The inverse, which computes the input for a given output.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`] if the gain is zero, or if the output does not rise (with a negative
-    /// gain, fall) with the input on every branch (see the [module](crate::transmission)).
+    /// [`Error::Inadmissible`] if the gain is zero, or if the output does not rise with the input
+    /// on every branch (for a negative gain: fall). See the [module](crate::transmission).
     pub fn inverse(&self) -> Result<Inverse<T>, Error> {
         if self.gain == T::zero() {
             return Err(Error::Inadmissible(

@@ -5,11 +5,11 @@
 //! ```
 //!
 //! The feed-forward supplements a PI or an adaptive law. A step evaluates the effects at the given
-//! motions and subtracts them from the desired output. It then inverts the transmission along the
-//! path of the hysteresis, up to rounding errors.
+//! motions and subtracts them from the desired output. It then computes the input for which the
+//! transmission gives the remaining output.
 //!
-//! Use the reference as the desired output, not the measured output, because noise corrupts the
-//! hysteresis state ([`transmission`](crate::transmission)).
+//! Use the reference as the desired output, not the measured output. Measurement noise would
+//! corrupt the hysteresis state (see [`transmission`](crate::transmission)).
 
 use super::{Fault, Status};
 use crate::effect::{Effect, Inputs, Motion};
@@ -37,7 +37,7 @@ pub struct CompensatorInput<'a, T> {
     pub dt: T,
     /// Desired output \[output unit\], such as tau_o \[N·m\].
     pub desired: T,
-    /// The present input of the transmission with its derivatives, for effects that read it.
+    /// The present input of the transmission, with its derivatives; only some effects read it.
     pub input: Motion<T>,
     /// The transmitted load: `tau_i` in torque mode, otherwise a load channel.
     pub load: T,
@@ -70,7 +70,8 @@ crate::data! {
         pub effects: T,
     }
 
-    /// Range of one source in the bench record, beyond which the effects do not extrapolate.
+    /// Range of one source in the bench record. The compensator clamps the motion of the source to
+    /// this range, so the effects do not extrapolate.
     ///
     /// ```
     /// use bowden::control::{BenchRange, Compensator};
@@ -132,12 +133,13 @@ impl<T: Real> BenchRange<T> {
 /// Two rules apply to effects that depend on the result:
 /// - An effect that reads the transmission's input or the load uses the values in the sample, for
 ///   example the last command. Each sample is then one step of an iteration. The iteration
-///   converges if the magnitude of the effect's slope over these values is below the smallest slope
-///   of the transmission. With friction, this slope is below the gain of the cable.
+///   converges if the slope of the effect with respect to these values is smaller in magnitude than
+///   the smallest slope of the transmission. With friction, the smallest slope of the transmission
+///   is below the gain of the cable.
 /// - An effect that reads eta uses eta of the previous sample.
 ///
-/// Without such effects, the output of the model for `command` is `desired`, up to rounding errors.
-/// A play or a clamped motion adds an error.
+/// Without such effects, `command` makes the output of the model equal to `desired`, up to rounding
+/// errors. A play or a clamped motion adds an error.
 ///
 /// ```
 /// use bowden::control::{Compensator, CompensatorInput, CompensatorState};
@@ -186,7 +188,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// - a term is an input stage (a play in series), whose inverse jumps.
     ///
     /// In the last three cases, [`try_nearest`](Self::try_nearest) changes the model so that it has
-    /// an inverse, and returns the changes. A gain of zero is an error there as well.
+    /// an inverse, and returns the changes. `try_nearest` also returns an error if the gain is
+    /// zero.
     pub fn try_new(model: &Model<T, N>) -> Result<Self, Error> {
         let transmission = *model
             .transmission()
@@ -217,10 +220,10 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         })
     }
 
-    /// The same compensator with a longest `dt` \[s\], positive; default: no limit.
+    /// Sets the longest `dt` \[s\], which must be positive (default: no limit).
     ///
-    /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can advance every effect
-    /// with memory (creep, temperature) by about an hour.
+    /// A longer `dt` is a bad sample. Without a limit, a timer that wraps can advance an effect
+    /// such as creep by about an hour.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"longest_dt"`.
@@ -231,18 +234,18 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { longest_dt, ..self })
     }
 
-    /// The same compensator with a [`Play`] on the desired output of the cable. The half-width
-    /// \[output unit\] is not negative; zero means no play.
+    /// Adds a [`Play`] to the desired output of the cable. The half-width \[output unit\] must not
+    /// be negative; zero means no play.
     ///
-    /// After each reversal the inverse is steep. Its slope increases as kappa_eta approaches the
-    /// bound of [`Transmission::inverse`](crate::transmission::Transmission::inverse), and is
-    /// unlimited for a model that was fitted *at* this bound (`bowden identify --invertible`).
+    /// After each reversal, the inverse is steep. Its slope increases as sigma approaches the bound
+    /// of [`Transmission::inverse`](crate::transmission::Transmission::inverse). For a model that
+    /// was fitted *at* this bound (`bowden identify --invertible`), the slope is unbounded.
     ///
     /// A term that reads a velocity from encoder counts reverses the desired output from sample to
-    /// sample, so the command chatters. A play removes these reversals. Choose its half-width
+    /// sample, so the command chatters. A play removes these reversals. Choose a half-width
     /// slightly above half the effect of one count on the output. With velocities from
-    /// [`Rates`](crate::signal::Rates), this value is `|gain|·count/(2·time constant)`. The output
-    /// of the model then equals `desired` to within the half-width.
+    /// [`Rates`](crate::signal::Rates), half the effect is `|gain|·count/(2·time constant)`. The
+    /// output of the model then equals `desired` to within the half-width.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -251,13 +254,14 @@ impl<T: Real, const N: usize> Compensator<T, N> {
         Ok(Self { play, ..self })
     }
 
-    /// The same compensator with motions clamped to the bench range of each source.
+    /// Clamps the motion of each source to its bench range.
     ///
-    /// Sources without a range are not clamped. If a source has two ranges, the later one applies.
+    /// Sources without a range are not clamped. If a source has two ranges, the last one applies.
     ///
     /// # Errors
     /// [`Error::NonFinite`] if a range is not finite; [`Error::Inadmissible`] if `low > high`, or
-    /// if no term reads the source. A range of [`Source::Input`] needs no such term.
+    /// if no term reads the source. A range of [`Source::Input`] is valid even if no term reads the
+    /// input.
     pub fn with_ranges(mut self, ranges: &[BenchRange<T>]) -> Result<Self, Error> {
         for range in ranges {
             range.check()?;
@@ -423,8 +427,8 @@ impl<T: Real, const N: usize> CompensatorState<T, N> {
         }
     }
 
-    /// The last good command \[input unit\], or the input that
-    /// [`applied`](Compensator::applied) has reported since; zero before the first one.
+    /// The last good command, or the input that was then reported to
+    /// [`applied`](Compensator::applied) \[input unit\]. Zero before the first good sample.
     pub fn command(&self) -> T {
         self.hysteresis.input().unwrap_or_else(T::zero)
     }

@@ -1,4 +1,4 @@
-//! The common interface of the controllers: one loop can run any of them.
+//! The common interface of the controllers. A loop that uses it can run any controller.
 
 use super::{
     Adaptive, AdaptiveInput, AdaptiveState, Applied, Limits, Pid, PidInput, PidState, Status,
@@ -41,7 +41,7 @@ impl<T> Output<T> {
     }
 }
 
-/// One sample for any controller, which reads the fields that it needs.
+/// One sample for any controller. Each controller reads only the fields that it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoopSample<'a, T> {
@@ -115,9 +115,9 @@ pub trait Controller<T: Real> {
     /// Restarts a state so that the command continues from `output` \[command unit\] without a
     /// jump.
     ///
-    /// A latched safe command stays latched. A state from [`start`](Self::start) has no fault, so
-    /// before you switch to another control law, check that the old law is not
-    /// [latched](Self::is_latched).
+    /// A latched safe command stays latched. Before you switch to another control law, check that
+    /// the old law is not [latched](Self::is_latched), because a state from [`start`](Self::start)
+    /// has no fault.
     fn resume_from(&self, state: &mut Self::State, output: T, at: &LoopSample<'_, T>) -> Status;
 
     /// Reports the drive's response to the last command if the drive did not apply the command.

@@ -1,10 +1,10 @@
 //! The adaptive law of Nguyen et al. (2018), one function for each term.
 //!
-//! The names are those of the paper. `u_bar` is the virtual command, and `h` is the time since the
-//! last sample \[s\]. A step evaluates (13) and (18), then (23) and (19) with the estimates of the
-//! last sample, and finally (17) and (24) to (26). These functions check and limit nothing. The
-//! step rejects bad samples, clamps z, the estimates and the command, and adds the increments by
-//! compensated summation.
+//! The names follow the paper: `u_bar` is the virtual command, and `h` is the time since the last
+//! sample \[s\]. A step evaluates (13) and (18), then (23) and (19) with the estimates of the last
+//! sample, and finally (17) and (24) to (26). These functions neither check nor limit any value.
+//! The step rejects bad samples, clamps z, the estimates and the command, and adds the increments
+//! by compensated summation.
 
 use crate::signal::clamp;
 use crate::Real;

@@ -1,16 +1,16 @@
-//! Iterative learning control: a feed-forward from the error of earlier cycles.
+//! Iterative learning control: a feed-forward from the errors of earlier cycles.
 //!
 //! ```text
 //! v(c) = (1 − forgetting)·learned(c) + gain·e(c + lead)     as soon as cell c + lead is left
 //! learned(c) = Σ w(k)·v(c + k), k from −half_width to half_width
 //! ```
-//! A cycle is divided into cells of equal phase width, and e is the mean of `reference − measured`
-//! over a cell. The feed-forward interpolates linearly between the learned values at the centres of
-//! the cells. The learned value of a cell is updated `lead + half_width` cells after the end of the
-//! cell, when all required errors are known.
+//! A cycle is divided into cells of equal phase width. The error e of a cell is the mean of
+//! `reference − measured` over this cell. The feed-forward interpolates linearly between the
+//! learned values at the centres of the cells. The learned value of a cell is updated
+//! `lead + half_width` cells after the end of the cell, when all required errors are known.
 //!
-//! The weights are a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has zero
-//! phase, and its gain is between 0 and 1 at every frequency (Fejér kernel):
+//! The weights form a triangle, `w(k) = (M − |k|)/M²` with `M = half_width + 1`. The filter has
+//! zero phase, and its gain is between 0 and 1 at every frequency (Fejér kernel):
 //!
 //! ```text
 //! Q(f) = (sin(M·x)/(M·sin(x)))², x = pi·f/(cells per second)
@@ -53,8 +53,8 @@ crate::checked::stored! {
     ///
     /// The learned values are stored in two buffers (arrays or borrowed slices) of the same length,
     /// with one number per cell. A cycle of 200 cells in `f32` requires 1600 bytes. Use about ten
-    /// cells per second for each hertz of the filter's corner frequency, but fewer cells than
-    /// samples in the shortest cycle.
+    /// cells per second for each hertz of the filter's corner frequency. The number of cells must
+    /// be smaller than the number of samples in the shortest cycle.
     ///
     /// ```
     /// use bowden::control::{IterativeLearning, IterativeLearningInput, Status};
@@ -118,7 +118,7 @@ impl<T: Real> IterativeLearningInput<T> {
 crate::checked! {
     IterativeLearning<T>;
 
-    /// Iterative learning without forgetting.
+    /// Iterative learning control without forgetting.
     ///
     /// - `gain` multiplies the error \[command unit/output unit\]. It is nonzero and must have the
     ///   sign of the plant's gain.
@@ -138,9 +138,10 @@ crate::checked! {
         Ok(IterativeLearning { gain, limit, lead, half_width, forgetting })
     }
 
-    /// The same settings, but each cycle removes a share (0 to 1) of each learned value.
+    /// Sets the share (0 to 1) of each learned value that each cycle removes.
     ///
-    /// With forgetting, values that do not repeat decay, but an error remains.
+    /// With forgetting, learned values decay if their errors do not repeat. However, part of the
+    /// repeating error remains.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"forgetting"`.
@@ -219,9 +220,9 @@ impl<T: Real> IterativeLearning<T> {
         self.resume(learned, unfiltered)
     }
 
-    /// A state that continues from the learned values in the first buffer, such as a stored copy of
-    /// [`IterativeLearningState::learned`]. The values are clamped to the limit, and NaN becomes
-    /// zero.
+    /// A state that continues from the learned values in the first buffer, for example a stored
+    /// copy of [`IterativeLearningState::learned`]. The values are clamped to the limit, and NaN
+    /// becomes zero.
     ///
     /// # Errors
     /// The same as [`start`](Self::start).
@@ -250,29 +251,29 @@ impl<T: Real> IterativeLearning<T> {
 
     /// Processes one sample and returns the value to add to the command at this phase.
     ///
-    /// [`Status::Degraded`] means that the feed-forward belongs to this phase, but the error was
-    /// unusable or the phase has jumped. [`Status::Held`] means that the phase is invalid and the
-    /// last feed-forward is held.
+    /// [`Status::Degraded`] means that the feed-forward is valid for this phase, but that the error
+    /// is unusable or the phase has jumped. [`Status::Held`] means that the phase is invalid and
+    /// the last feed-forward is held.
     ///
     /// Call this method at every sample, before the controller. For any state and buffers, the
     /// feed-forward is finite and within ±limit. If the phase jumps, the feed-forward jumps too.
     /// Set a slew-rate limit in the controller's [`Limits`](crate::control::Limits) to limit the
     /// rate of the command.
     ///
-    /// - A phase outside 0 to 1 holds the feed-forward. The controller does not detect this fault,
-    ///   so its fallback does not act. If the phase signal can fail, omit the feed-forward after a
-    ///   few such samples.
+    /// - A phase outside 0 to 1 holds the feed-forward. The controller does not detect this fault
+    ///   and does not apply its safe command. If the phase signal can fail, omit the feed-forward
+    ///   after a few such samples.
     /// - If the reference or the measured output is not finite, the feed-forward follows the phase,
-    ///   and the sample is not used.
-    /// - A change by more than four cells in one sample, forward or back, is a jump. The cell
-    ///   before a jump and the `lead` cells before the new cell do not learn. A walking step that
-    ///   ends early at heel contact is such a jump: the last `lead + half_width` cells before it do
-    ///   not learn.
-    /// - While the phase is up to four cells behind (jitter), the samples are not used. With larger
-    ///   jitter, cells learn several times per cycle. In this case, filter the phase, or set
-    ///   `learns` to `false`.
-    /// - The most expensive step completes four cells, each with a sum over `2·half_width + 1`
-    ///   cells.
+    ///   but the sample is not used for learning.
+    /// - A phase change of more than four cells in one sample, forward or backward, counts as a
+    ///   jump. The cell before a jump and the `lead` cells before the new cell are not updated. For
+    ///   example, the phase jumps if a walking step ends early at heel contact. The last
+    ///   `lead + half_width` cells before this jump are then not updated.
+    /// - If the phase moves back by up to four cells (jitter), samples are not used until the phase
+    ///   returns to the cell that it had reached. With larger jitter, cells are updated several
+    ///   times per cycle. In this case, filter the phase, or set `learns` to `false`.
+    /// - The most expensive step completes four cells, and computes a sum over `2·half_width + 1`
+    ///   cells for each of them.
     #[inline]
     pub fn step<M: AsRef<[T]> + AsMut<[T]>>(
         &self,

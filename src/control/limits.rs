@@ -42,11 +42,12 @@ crate::checked! {
         Ok(Limits { low, high, slew })
     }
 
-    /// The same range with a positive slew-rate limit \[command unit/s\].
+    /// Sets the slew-rate limit \[command unit/s\], which must be positive.
     ///
-    /// A slew-rate limit below `2·k_p·noise·rate` also limits the response to noise, and the loop
-    /// may oscillate. Here, `noise` is the largest change of the measured output between samples,
-    /// and `rate` is the sampling rate \[Hz\]. Choose a higher slew-rate limit or a smaller gain.
+    /// A slew-rate limit below `2·k_p·noise·rate` also limits the response to noise. The loop may
+    /// then oscillate. Here, `noise` is the largest change in the measured output between two
+    /// samples, and `rate` is the sampling rate \[Hz\]. Choose a higher slew-rate limit or a
+    /// smaller gain.
     ///
     /// In `f32`, the spacing of neighbouring floats is up to 1.2e-7 of the command. If `slew·dt` is
     /// smaller than this spacing, a sample moves the command by one spacing or not at all.
@@ -61,7 +62,7 @@ crate::checked! {
 }
 
 impl<T: Real> Limits<T> {
-    /// All finite commands, for a simulation and not for a machine.
+    /// The range of all finite commands, for simulation only.
     pub const fn unlimited() -> Self {
         Self {
             low: T::LOWEST,

@@ -1,7 +1,7 @@
 //! Torque controllers that reject bad samples.
 //!
 //! Configuration and state are separate types. `try_new` checks a configuration once. The
-//! configuration is then constant and can be stored in flash. A state can be saved and restored.
+//! configuration never changes, so it can be stored in flash. A state can be saved and restored.
 //! Call `step` once per sample with the time since the last call; this time may vary.
 //!
 //! **Bad samples.** A sample is bad if
@@ -10,11 +10,11 @@
 //! - the command overflows.
 //!
 //! A bad sample holds the last good command. It leaves the state unchanged, except for the fault
-//! counter and the time of the bad samples. The [`Status`] reports the bad input. After too many
-//! bad samples, the [`Fallback`] of a [`Pid`], [`Adaptive`] or [`Relay`] applies its safe command.
-//! It latches this command until [`acknowledge`](Controller::acknowledge) is called. The command of
-//! these three is finite and within the [`Limits`] for any state. To reject finite but implausible
-//! numbers, pass each input through [`signal::Plausible`](crate::signal::Plausible).
+//! counter and the accumulated time of the bad samples. The [`Status`] reports the bad input. After
+//! too many bad samples, a [`Pid`], [`Adaptive`] or [`Relay`] applies the safe command of its
+//! [`Fallback`] until [`acknowledge`](Controller::acknowledge) is called. For any state, the
+//! command of these three controllers is finite and within the [`Limits`]. To reject finite but
+//! implausible numbers, pass each input through [`signal::Plausible`](crate::signal::Plausible).
 //!
 //! **In flash.** [`constant!`](crate::constant) makes a checked `static` or `const` of every
 //! configuration except a [`Compensator`], which contains a [`Model`](crate::model::Model).

@@ -8,13 +8,13 @@
 //!
 //! The observer compares the applied command with the command that the nominal plant needs for the
 //! measured output. The difference, filtered through Q, is added to the next command. At
-//! frequencies below `1/tau`, the loop then behaves as if the plant were the nominal plant, unless
-//! a limit is active.
+//! frequencies below `1/tau`, the loop then behaves as if it contained the nominal plant, unless a
+//! limit is active.
 //!
-//! The observer needs alpha, wn and zeta from the drive's specification or from a bench record.
+//! Take alpha, wn and zeta from the drive's specification or from a bench record.
 //!
-//! Add the estimate to a controller's `feed_forward`. The limit of the observer bounds the estimate
-//! for any input. You can also add the command of the nominal plant for the reference
+//! Add the estimate to a controller's `feed_forward`. For any input, the estimate stays within the
+//! limit of the observer. You can also add the command of the nominal plant for the reference
 //! ([`NominalPlant::feed_forward`]). Do not also add the command of a
 //! [`Compensator`](super::Compensator). Otherwise the friction is compensated twice.
 //!
@@ -50,10 +50,10 @@ crate::checked::stored! {
     ///                                         z1⁺ = z1 + s·(y − z1)      z2⁺ = z2 + s·(z1⁺ − z2)
     /// d_hat = w2⁺ − (z2⁺ + 2·zeta/(wn·tau)·(z1⁺ − z2⁺) + (y − 2·z1⁺ + z2⁺)/(wn·tau)²)/alpha
     /// ```
-    /// The lags are stable for any `dt`, which may vary, but the closed loop requires a `dt` well
-    /// below tau. Even with zero latency, the command affects the output only at the next sample.
-    /// Above `1/tau`, white noise on y reaches the command with a factor of about
-    /// `1/(alpha·(wn·tau)²)`.
+    /// The lags are stable for any `dt`, and `dt` may vary. However, the closed loop requires a
+    /// `dt` well below tau. Even with zero latency, the command affects the output only at the next
+    /// sample. At frequencies above `1/tau`, white noise on y appears in the command, multiplied by
+    /// about `1/(alpha·(wn·tau)²)`.
     ///
     /// ```
     /// use bowden::control::{
@@ -133,13 +133,14 @@ crate::checked! {
         Ok(DisturbanceObserver { plant, time_constant, limit, longest_dt, latency, inverse })
     }
 
-    /// The same observer for a command that affects the measured output after `latency ≥ 0` \[s\].
+    /// Sets the latency \[s\] from a command to its effect on the measured output. The latency must
+    /// not be negative.
     ///
-    /// The latency is the sum of the delays in whole samples, half a sample for the zero-order
-    /// hold, and the lags of drive and sensor. It does not include the response of the nominal
-    /// plant.
+    /// The latency is the sum of the whole-sample delays, half a sample for the zero-order hold,
+    /// and the lags of drive and sensor. The response of the nominal plant is not included.
     ///
-    /// Before the comparison, the observer delays the command by a lag with this time constant.
+    /// Before the comparison, the observer passes the command through a first-order lag whose time
+    /// constant is the latency.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"latency"`.
@@ -170,7 +171,7 @@ impl<T: Real> DisturbanceObserver<T> {
         self.longest_dt
     }
 
-    /// Time from a command to its effect in the measured output \[s\].
+    /// Time from a command to its effect on the measured output \[s\].
     pub const fn latency(&self) -> T {
         self.latency
     }
@@ -178,10 +179,11 @@ impl<T: Real> DisturbanceObserver<T> {
     /// Processes one sample and returns the estimate to add to the next command.
     ///
     /// Call this method at every sample, before the controller. A sample is bad if `dt` is not
-    /// positive or too long, or if the command or the output is not finite. A bad sample holds the
-    /// estimate, and its `dt` is added to the next `dt`. If the `dt` itself is unusable, the next
-    /// `dt` counts twice. If the estimate overflows, it is held, and the lags restart at the next
-    /// good sample. For any state, the estimate is finite and within ±limit.
+    /// positive or too long, or if the command or the output is not finite. After a bad sample, the
+    /// estimate is held, and the `dt` of this sample is added to the next `dt`. If the `dt` of the
+    /// bad sample is itself invalid, the next `dt` is counted twice. If the estimate overflows, it
+    /// is held, and the lags restart at the next good sample. For any state, the estimate is finite
+    /// and within ±limit.
     #[inline]
     pub fn step(&self, state: &mut ObserverState<T>, at: &ObserverInput<T>) -> Output<T> {
         let status = if self.advance(state, at) {

@@ -9,11 +9,12 @@
 //!
 //! - `dt` may vary from call to call, up to the longest `dt`. The derivative uses an implicit
 //!   first-order lag, which is stable for any `dt`; see [`Derivative`].
-//! - The integral is stored as a command, so a change of `k_i` does not move the command.
+//! - The integral is stored in command units, so a new `k_i` does not change the present command.
 //!   Compensated summation prevents the loss of small increments in `f32`.
 //! - [`AntiWindup`] lists the anti-windup methods.
-//! - A bad sample leaves the state unchanged and holds the command; see [`Status`]. After a gap of
-//!   bad samples, the derivative includes the time of the gap, and the integral does not.
+//! - A bad sample leaves the state unchanged and holds the command; see [`Status`]. At the first
+//!   good sample after bad samples, the derivative uses the time since the last good sample. The
+//!   integral uses only the `dt` of this sample.
 //!
 //! Source: section 3.1 of Nguyen et al. (2018); Åström & Hägglund, *Advanced PID Control*, 2006.
 
@@ -109,8 +110,8 @@ impl<T: Real> Pid<T> {
     /// Processes one sample and returns the command \[command unit\] and the status.
     ///
     /// The command is finite and within the limits for any input **and any state**, including a
-    /// stored state and a state of another controller. A bad sample leaves the state unchanged,
-    /// except for the fault counter and the time of the bad samples.
+    /// stored state and a state from a controller with other settings. A bad sample leaves the
+    /// state unchanged, except for the fault counter and the accumulated time of the bad samples.
     #[inline]
     pub fn step(&self, state: &mut PidState<T>, at: &PidInput<T>) -> Output<T> {
         let mut velocity = at.velocity;
@@ -131,7 +132,8 @@ impl<T: Real> Pid<T> {
         self.exception(state, &sample)
     }
 
-    /// The same step, with all terms for telemetry: the [`terms`](Self::terms) after the step.
+    /// The same step, which also returns all terms for telemetry. They are the
+    /// [`terms`](Self::terms) after the step.
     pub fn step_with_terms(
         &self,
         state: &mut PidState<T>,
@@ -159,7 +161,7 @@ impl<T: Real> Pid<T> {
         }
     }
 
-    /// The limit that acts on the command (range or slew-rate limit), for the outer loop of a
+    /// The limit that the command has reached (range or slew-rate limit), for the outer loop of a
     /// cascade.
     ///
     /// Pass the result to [`applied`](Self::applied) of the outer loop. If the inner loop has
@@ -181,13 +183,16 @@ impl<T: Real> Pid<T> {
 
     /// Reports the drive's response to the last command if the drive did not apply the command.
     ///
-    /// Call this method between two steps. The slew-rate limit, back-calculation and a bumpless
-    /// start then continue from a known applied command:
-    /// - Back-calculation feeds the part that the drive cut off back to the integral at the next
-    ///   sample. The same applies to [`AntiWindup::Conditional`] with a slew-rate limit.
+    /// Call this method between two steps. If the applied command is known, the slew-rate limit,
+    /// back-calculation and a bumpless start continue from this command. The effect on the integral
+    /// depends on the anti-windup method:
+    /// - With back-calculation and a known applied command, the integral is corrected at the next
+    ///   sample by the part that the drive cut off. The same applies to [`AntiWindup::Conditional`]
+    ///   with a slew-rate limit.
     /// - With [`AntiWindup::None`], the integral does not change.
-    /// - In all other cases, the last change of the integral is reversed as far as it exceeds the
-    ///   drive's limit. If the applied command is unknown, the whole change is reversed.
+    /// - In all other cases, the last change of the integral is reversed to the extent that it
+    ///   exceeds the drive's limit. If the applied command is unknown, the whole change is
+    ///   reversed.
     ///
     /// The next command still contains the full demand, so the loop recovers as soon as the drive
     /// does. See [`Applied`].
@@ -225,14 +230,15 @@ impl<T: Real> Pid<T> {
 
     /// Continues a running state with other settings, without a jump in the command.
     ///
-    /// All settings may change. The integral changes only as far as necessary: at the last good
-    /// sample, the new terms add up to the applied command. If a limit cuts off both the old and
-    /// the new sum, the new sum may lie beyond this limit. The next command differs only by one
-    /// step of the integral. If the new limits exclude the command, the limits take priority.
+    /// All settings may change. The integral is adjusted so that, at the last good sample, the new
+    /// terms add up to the applied command. If the same limit clamps the old sum and the new sum,
+    /// the integral is not adjusted. The new sum may then lie beyond this limit. The next command
+    /// differs from the applied command only by one increment of the integral. If the new limits
+    /// exclude the command, the limits take priority.
     ///
-    /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before a change
-    /// to PIV, pass samples with a velocity. Without an earlier good sample, or if the sum
-    /// overflows, the state does not change.
+    /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before you
+    /// change to PIV, pass samples that contain the velocity. Without an earlier good sample, or if
+    /// the sum overflows, the state does not change.
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidSettings, PidState};

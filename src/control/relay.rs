@@ -1,4 +1,4 @@
-//! Relay experiment: measures the ultimate gain and period of a loop, for PI gains.
+//! Relay experiment: measures the ultimate gain and period of a loop to tune a PI.
 //!
 //! ```text
 //! command = centre + d   from y < y_r − eps on, until y > y_r + eps
@@ -13,26 +13,27 @@
 //!
 //! - **Describing function.** The formula uses only the first harmonic of the command. Compared
 //!   with the exact limit cycle, k_u has an error of −2 % for 1/(s + 1)³. For a first-order lag
-//!   with delay, the error is between −19 % (short delay) and +27 % (long delay). It is −11 % if
-//!   the delay equals the time constant.
-//! - **Hysteresis.** A hysteresis makes T_u too long and k_u too low, which is conservative. With
-//!   eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is several times eps.
+//!   with delay, the error is between −19 % (short delay) and +27 % (long delay). If the delay
+//!   equals the time constant, the error is −11 %.
+//! - **Hysteresis.** The hysteresis makes T_u too long and k_u too low, so the gains are
+//!   conservative. With eps = 0.1·a, k_u of 1/(s + 1)³ is 17.5 % too low. Choose d so that a is
+//!   several times eps.
 //! - **Asymmetric cycles.** A load or a bias makes the half-periods unequal. The first harmonic of
-//!   such a command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low: by 5 %
-//!   for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
+//!   an asymmetric command is `4·d/pi·sin(pi·D)`. The even harmonics increase a, so k_u is too low:
+//!   by 5 % for 1/(s + 1)³ and D = 0.62. To make the half-periods equal, use the mean command
 //!   `centre + d·(2·D − 1)` as the next centre.
 //! - **Sampling.** The relay switches up to one `dt` after the crossing. The measured period is
-//!   therefore two `dt` longer on average than the period with a continuous relay, and at most four
-//!   `dt` longer. A sampled controller has the same average delay, so no correction is necessary.
+//!   therefore longer than with a continuous relay: by two `dt` on average, and by at most four
+//!   `dt`. A sampled controller has the same average delay, so no correction is necessary.
 //! - **Sign.** The amplitude d, k_u and the gains have the sign of the plant's gain. With the wrong
 //!   sign, the experiment fails with `OutputOutOfRange` or `NoOscillation`.
-//! - **Duration.** The experiment ends within `longest_time`, because the time of bad samples is
-//!   included. A sample without a usable `dt` adds `longest_dt`. A failure latches the safe command
-//!   until [`RelayState::acknowledge`] is called.
+//! - **Duration.** The experiment ends within `longest_time` even if samples are bad, because the
+//!   time of bad samples is included. A sample without a usable `dt` adds `longest_dt`. A failure
+//!   latches the safe command until [`RelayState::acknowledge`] is called.
 //!
 //! Source: K. Åström, T. Hägglund, "Automatic tuning of simple regulators with specifications on
-//! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric relay
-//! in Ya. Tsypkin, *Relay Control Systems*, 1984.
+//! phase and amplitude margins", *Automatica* 20(5), 1984; the first harmonic of an asymmetric
+//! relay in Ya. Tsypkin, *Relay Control Systems*, 1984.
 
 mod settings;
 mod state;
@@ -117,11 +118,12 @@ impl<T: Real> Relay<T> {
     /// \[output unit\].
     ///
     /// The status is [`Status::Held`] for a bad sample, and [`Status::Safe`] after a failure. After
-    /// a success, [`RelayState::result`] returns the result, and the relay applies the centre.
+    /// a success, the relay applies the command `centre`, and [`RelayState::result`] returns the
+    /// result.
     ///
     /// The command is finite and within the limits for any input **and any state**. A bad sample
-    /// holds the command. If its `dt` is not usable, the average excludes the cycle with this
-    /// sample.
+    /// holds the command. If the `dt` of a bad sample is not usable, the cycle that contains this
+    /// sample is not averaged.
     pub fn step(&self, state: &mut RelayState<T>, dt: T, measured: T) -> Output<T> {
         let s = &self.settings;
         let status = match state.held.latched(&s.fallback) {

@@ -20,13 +20,14 @@ crate::data! {
         /// All inputs were good; the state has advanced.
         Good,
         /// A regressor was bad, and its term was dropped. The loop is closed, and the estimates do
-        /// not change. For [`IterativeLearning`](crate::control::IterativeLearning), the error was
-        /// unusable, or the phase has jumped.
+        /// not change. For [`IterativeLearning`](crate::control::IterativeLearning), this status
+        /// means that the error is not usable or that the phase has jumped.
         Degraded(Fault),
         /// A bad sample: the state is unchanged, and the last good command is held.
         Held(Fault),
         /// Too many bad samples: the safe command is applied until
-        /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are good.
+        /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are
+        /// good.
         ///
         /// The value is the fault of the last of these samples, or the reason for the failure of a
         /// [`Relay`](crate::control::Relay) experiment.
@@ -54,8 +55,8 @@ crate::checked::stored! {
     /// - at the `after`-th consecutive bad sample, and
     /// - after n samples of which B are bad, if `(weight + 1)·B − n ≥ after·weight`.
     ///
-    /// With a weight of 4, the second condition is met if more than one sample in five is bad for
-    /// long enough.
+    /// With a weight of 4, the second condition is met if, over a sufficiently long time, more than
+    /// one sample in five is bad.
     ///
     /// ```
     /// use bowden::control::Fallback;
@@ -107,10 +108,10 @@ crate::checked! {
         Ok(Fallback { after, weight, most, command: Some(command) })
     }
 
-    /// The same fallback with `weight` good samples to cancel a bad sample; default: 4.
+    /// Sets the number `weight` of good samples that cancel a bad sample (default: 4).
     ///
-    /// With a weight of 1, every second sample may be bad without triggering the safe command, if
-    /// `after` is at least 2.
+    /// With a weight of 1 and an `after` of at least 2, the safe command is not applied even if
+    /// every second sample is bad.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with `"weight"` if `weight` is zero.
@@ -124,7 +125,7 @@ crate::checked! {
 }
 
 impl<T: Real> Fallback<T> {
-    /// Holds the last good command indefinitely: for a simulation, not for a machine.
+    /// Holds the last good command indefinitely, for simulation only.
     pub const fn hold_indefinitely() -> Self {
         Self {
             after: u32::MAX,
@@ -183,9 +184,9 @@ crate::data! {
     /// The drive's response to the last command.
     ///
     /// A controller assumes that the drive applies its command. Report any other response between
-    /// two steps. Examples are an open safety relay, a current limit in the drive, or an inner loop
-    /// at its limit. The slew-rate limit, anti-windup and a bumpless start then continue from the
-    /// applied command.
+    /// two steps. Examples are an open safety relay, a current limit in the drive, and an inner
+    /// loop at its limit. The slew-rate limit, anti-windup and a bumpless start then continue from
+    /// the applied command.
     ///
     /// ```
     /// use bowden::control::{Applied, Fallback, Limits, Pid, PidInput, PidSettings, PidState};
@@ -204,22 +205,22 @@ crate::data! {
     /// These methods accept the response: [`Pid::applied`](super::Pid::applied),
     /// [`AdaptiveState::applied`](super::AdaptiveState::applied),
     /// [`Controller::applied`](super::Controller::applied) and
-    /// [`Compensator::applied`](super::Compensator::applied), which moves the hysteresis. For a
-    /// [`DisturbanceObserver`](super::DisturbanceObserver), pass the applied command as `sent`. For
-    /// [`IterativeLearning`](super::IterativeLearning), set `learns`.
+    /// [`Compensator::applied`](super::Compensator::applied), which also corrects the hysteresis
+    /// state. For a [`DisturbanceObserver`](super::DisturbanceObserver), pass the applied command
+    /// as `sent`. For [`IterativeLearning`](super::IterativeLearning), set `learns` to `false`.
     ///
     /// Report `AsCommanded` if the drive deviates slightly from the command for a reason other than
-    /// a limit (an offset, a measured current). `Command` with such a value would stop or shift the
-    /// integral until the difference is zero.
+    /// a limit, such as an offset or a measured current. Otherwise, the integral would stop or
+    /// shift until the difference is zero.
     pub enum Applied<T> {
         /// The drive applied the command.
         AsCommanded,
         /// The drive applied this command \[command unit\]; a number that is not finite is ignored.
         Command(T),
-        /// The drive applied an unknown command below the requested one. The integral does not
+        /// The applied command is unknown, but is below the requested one. The integral does not
         /// rise, except with [`AntiWindup::None`](super::AntiWindup::None).
         AtUpperLimit,
-        /// The drive applied an unknown command above the requested one. The integral does not
+        /// The applied command is unknown, but is above the requested one. The integral does not
         /// fall, except with [`AntiWindup::None`](super::AntiWindup::None).
         AtLowerLimit,
     }

@@ -48,12 +48,13 @@ effect! {
     /// The gain is the output at 1 channel unit/s, in the output unit. Another channel unit changes
     /// the gain but not the exponent.
     ///
-    /// For `0 < a < 1` the regressor is continuous, has an infinite slope at v = 0, and then
-    /// flattens. It lies between Coulomb friction (the limit a → 0) and [`Viscous`](super::Viscous)
-    /// (a = 1).
+    /// For `0 < a < 1`, the regressor is continuous, and its slope falls from infinity at v = 0
+    /// towards zero. The regressor lies between Coulomb friction (the limit a → 0) and
+    /// [`Viscous`](super::Viscous) (a = 1).
     ///
-    /// An exponent below 1 describes shear-thinning fluids: greases, oils with additives and, past
-    /// yield, magnetorheological fluids. An exponent above 1 describes shear-thickening fluids.
+    /// An exponent below 1 describes shear-thinning fluids, such as greases, oils with additives,
+    /// and magnetorheological fluids beyond their yield point. An exponent above 1 describes
+    /// shear-thickening fluids.
     ///
     /// Source: W. Ostwald, "Über die Geschwindigkeitsfunktion der Viskosität disperser Systeme. I",
     /// *Kolloid-Zeitschrift* 36, 1925, pp. 99–117; for dampers with `F = C·|v|^a·sgn(v)`, N.
@@ -167,11 +168,12 @@ effect! {
     /// Capstan friction, proportional to the tension and exponential in the wrap angle.
     ///
     /// Formula: `load·(exp(mu·x) − 1)/mu·tanh(v/v_e)`, where x is the wrap angle relative to the
-    /// origin of the term. A gain of mu gives the Euler-Eytelwein law: along the wrap, friction
-    /// adds the tension `load·(exp(mu·x) − 1)`. As mu tends to zero, the regressor tends to
-    /// `load·x·tanh(v/v_e)`. If the wrap angle at the origin is x_0, the friction also contains the
-    /// load friction `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`, and the gain is `mu·exp(mu·x_0)`. The
-    /// position x must increase with the wrap angle, because mu is positive.
+    /// origin of the term. A gain of mu gives the Euler-Eytelwein equation: along the wrap,
+    /// friction adds the tension `load·(exp(mu·x) − 1)`. As mu tends to zero, the regressor tends
+    /// to `load·x·tanh(v/v_e)`. If the wrap angle at the origin is x_0, the gain is
+    /// `mu·exp(mu·x_0)`, and there is additional load friction,
+    /// `load·(exp(mu·x_0) − 1)·tanh(v/v_e)`. The position x must increase with the wrap angle,
+    /// because mu is positive.
     ///
     /// Source: L. Euler, 1762; J. A. Eytelwein, 1808; for tendons, M. Kaneko,
     /// T. Yamashita, K. Tanie, "Basic considerations on transmission characteristics
@@ -333,7 +335,7 @@ effect! {
 }
 
 effect! {
-    /// Asymmetry of the hysteresis loop, which is then higher on one side.
+    /// Asymmetry of the hysteresis loop: the loop is higher on one side.
     ///
     /// Formula: `|eta|`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEta;

@@ -5,7 +5,7 @@ use super::{EffectState, Inputs};
 use crate::error::finite;
 use crate::{Error, Real};
 
-/// A unit as exponents of the units of the record.
+/// A unit, expressed by the exponents of the units in the record.
 ///
 /// The gain of a term has the output unit divided by the unit of its regressor.
 ///
@@ -55,7 +55,7 @@ impl Dimension {
     }
 }
 
-/// How a regressor responds to a change of the sign of its inputs.
+/// Behaviour of a regressor when its inputs change sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Parity {
@@ -80,7 +80,7 @@ pub struct Symmetry {
     /// Parity if all signed signals (motion, input, load, eta and output) change sign along the
     /// whole path. Times keep their sign.
     pub mirror: Parity,
-    /// Parity if only v changes sign, at one instant. For an effect with memory this is
+    /// Parity if only v changes sign, at one instant. For an effect with memory, this is
     /// [`Parity::Neither`].
     pub reversal: Parity,
 }
@@ -196,7 +196,7 @@ impl Stage {
 pub(super) const COUNT: Error =
     Error::Inadmissible("there must be one value for each shape of the effect");
 
-/// A type that represents one effect.
+/// The interface of a type that represents one effect.
 ///
 /// A [`FixedModel`](crate::model::FixedModel) uses this trait. Only the effects of this crate
 /// implement it.

@@ -77,7 +77,8 @@ impl<T: Real> Inputs<T> {
 crate::checked::stored! {
     /// The internal state of one effect, empty before the first sample.
     ///
-    /// Use a state with only one effect, because the meaning of its numbers depends on the effect.
+    /// Use each state with only one effect, because the meaning of its numbers depends on the
+    /// effect.
     #[derive(Default)]
     pub struct EffectState<T> {
         pub(super) memory: Option<[T; 4]>,

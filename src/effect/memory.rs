@@ -84,7 +84,7 @@ effect! {
 effect! {
     /// Presliding friction: the stop operator with half-width `r` and unit height.
     ///
-    /// Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, the elastic, perfectly plastic stop of
+    /// Formula: `s/r` with `s ← clamp(s + dx, −r, r)`, the elastic-perfectly plastic stop of
     /// Prandtl. The state starts at s = 0. The area of the loop is `4·(X − r)` for a cycle of
     /// amplitude X > r, and 0 for a smaller cycle. This effect equals [`Backlash`](super::Backlash)
     /// with the same r, divided by −r.
@@ -131,7 +131,7 @@ effect! {
     /// assert_eq!(PreslidingDahl::try_new(0.0), Err(Error::OutOfRange("r")));
     /// ```
     PreslidingDahl {
-        /// Distance over which 63 % of a change of z takes place \[channel unit\].
+        /// Distance over which z completes 63 % of its change \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
     "presliding-dahl" in "presliding": "dahl(x; r)", Dimension::ONE,
@@ -164,8 +164,8 @@ effect! {
     ///
     /// Formula: `eta·(1 − exp(−W/w_c))` with `W = ∫|eta|·|dx|`, where x is the transmission's
     /// input, whatever the source of the term. The integral uses the trapezoidal rule and starts at
-    /// the first sample. For W ≪ w_c the regressor is approximately `eta·W/w_c`. Its limit is
-    /// `eta`, so the loop stays bounded after running-in.
+    /// the first sample. For W ≪ w_c the regressor is approximately `eta·W/w_c`. For large W, it
+    /// approaches `eta`, so the loop stays bounded after running-in.
     ///
     /// Source: T. T. Baber, Y.-K. Wen, "Random vibration of hysteretic, degrading systems",
     /// *Journal of the Engineering Mechanics Division* 107(6), 1981 (linear in the work).
@@ -194,12 +194,12 @@ effect! {
 }
 
 effect! {
-    /// Creep: x through a first-order low-pass filter.
+    /// Creep: x, filtered by a first-order low-pass.
     ///
     /// Formula: `lowpass(x; tau)`, a Kelvin-Voigt element. The initial state is the first x.
     /// Several elements with time constants a decade apart approximate the logarithmic creep of
-    /// polymers and piezo stacks. In `f32`, the rounding error of a [`Lag`](super::Lag) also limits
-    /// tau/dt here.
+    /// polymers and piezo stacks. In `f32`, rounding errors limit the useful tau/dt, as for a
+    /// [`Lag`](super::Lag).
     ///
     /// Source: P. Krejčí, K. Kuhnen, "Inverse control of systems with hysteresis and
     /// creep", *IEE Proceedings — Control Theory and Applications* 148(3), 2001.
@@ -235,11 +235,11 @@ const PER_POSITION: Dimension = Dimension {
 };
 
 effect! {
-    /// Hardening hysteresis: its slope increases with its state.
+    /// Hardening hysteresis, whose slope increases with its state.
     ///
     /// Formula: `w(x; g, beta)`. While the state w moves away from zero, `dw/dx = 1 + g·|w|`. While
-    /// w returns, `dw/dx = 1 + (g + 2·beta)·|w|`. At the first sample, w = 0. The unit of w is that
-    /// of x, so the gain is the initial stiffness.
+    /// w returns to zero, `dw/dx = 1 + (g + 2·beta)·|w|`. At the first sample, w = 0. The state w
+    /// has the unit of x, so the gain is the initial stiffness.
     ///
     /// In the Bouc-Wen form `z' = A·x' − b·|x'|·|z|^(n−1)·z − c·x'·|z|^n`, this effect has n = 1,
     /// `z = A·w`, `b = beta` and `b + c = −g`. A [`BoucWen`](crate::hysteresis::BoucWen) has
@@ -312,11 +312,11 @@ fn grown<T: Real>(a: T, rate: T, p: T) -> T {
 effect! {
     /// First-order lag of the output.
     ///
-    /// Formula: `lowpass(output; tau) − output`. With a gain of 1, the result is the filtered
+    /// Formula: `lowpass(output; tau) − output`. With a gain of 1, the new output is the filtered
     /// output. The initial state is the first output. The filter uses a zero-order hold, so its
-    /// step response is exact for any dt. Because of rounding errors, the state stops short of its
-    /// target, with a relative error of up to `tau/dt` times half the machine epsilon. In `f32`
-    /// this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
+    /// step response is exact for any dt. Because of rounding errors, the state does not quite
+    /// reach its target. The relative error is up to `tau/dt` times half the machine epsilon. In
+    /// `f32`, this error is 0.06 % at a tau/dt of 10^4 and 6 % at 10^6.
     ///
     /// This effect is an output stage: it reads the sum of all terms before it.
     ///
@@ -369,8 +369,8 @@ effect! {
     ///
     /// The gain is the delay T \[s\]. The output passes through the first-order all-pass filter
     /// `z_k = y_{k−1} + c·(y_k − z_{k−1})` with `c = (dt − T)/(dt + T)`. The filter has magnitude 1
-    /// at every frequency, and is exact for `T = dt`. At the low angular frequency w, the relative
-    /// error of the delay is at most `(w·T)²/12` or, for a T below dt, `(w·dt)²/12`. The first
+    /// at every frequency, and is exact for `T = dt`. At a low angular frequency w, the relative
+    /// error of the delay is at most `(w·T)²/12` or, if T is less than dt, `(w·dt)²/12`. The first
     /// sample is not delayed. A negative T advances the output by the first-order term of its
     /// Taylor series.
     ///

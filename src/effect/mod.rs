@@ -1,12 +1,12 @@
 //! Effects of a cable transmission other than its hysteresis.
 //!
 //! Each effect defines a *regressor*, a function of the motion, the load and the hysteresis state.
-//! A term of a model is a gain times a regressor, and a fit identifies the gain. Each effect has
-//! its own type, and [`Effect`] can hold any effect. [`Info`] gives the formula, unit, symmetries
-//! and shape parameters of an effect. The symmetries show which effects can explain a residual, and
+//! A term of a model is a gain times a regressor. A fit identifies the gain. Each effect has its
+//! own type, and [`Effect`] can hold any effect. [`Info`] gives the formula, unit, symmetries and
+//! shape parameters of an effect. The symmetries show which effects can explain a residual, and
 //! which experiment separates two effects.
 //!
-//! A regressor saturates if the arithmetic overflows.
+//! If the arithmetic overflows, a regressor saturates at the largest finite value.
 
 mod bounds;
 mod declare;
@@ -68,14 +68,14 @@ macro_rules! effects {
                 }
             }
 
-            /// Position of the effect in a model, from a table without the other properties.
+            /// Position of the effect in a model.
             pub(crate) fn stage(&self) -> Stage {
                 match &self.0 {
                     $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO.stage,)+
                 }
             }
 
-            /// The quantities that the effect reads, from a table without the other properties.
+            /// The quantities that the effect reads.
             pub(crate) fn reads(&self) -> &'static [Quantity] {
                 match &self.0 {
                     $(Kind::$effect { .. } => <$effect $(<$T>)? as Regressor<T>>::INFO.reads,)+
@@ -128,9 +128,9 @@ macro_rules! effects {
 
             /// The regressor at one sample, without the gain.
             ///
-            /// The result is finite for finite inputs. If an input that the effect reads is not
-            /// finite, or if the effect reads `dt` and `dt` is negative, the result is 0 and
-            /// `state` is unchanged.
+            /// The result is finite for finite inputs. In two cases, the result is 0 and `state` is
+            /// unchanged: an input that the effect reads is not finite, or `dt` is negative and the
+            /// effect reads it.
             #[inline]
             pub fn regressor(&self, state: &mut EffectState<T>, at: &Inputs<T>) -> T {
                 match &self.0 {
@@ -205,7 +205,7 @@ effects! {
 }
 
 /// Any effect of this module, with its shape parameters. Create it from the type of the effect, or
-/// by its name in the [`CATALOGUE`].
+/// from its name in the [`CATALOGUE`].
 ///
 /// ```
 /// use bowden::effect::{Coulomb, Effect};
@@ -265,7 +265,7 @@ impl<T: Real> Effect<T> {
         self.info().name
     }
 
-    /// The same effect with one shape parameter changed.
+    /// Returns this effect with one shape parameter changed.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no such shape parameter or if the value lies outside its
@@ -281,12 +281,12 @@ impl<T: Real> Effect<T> {
         Self::try_from_name(info.name, own)
     }
 
-    /// The contribution of a term with this gain to the output. It is gain times regressor, except
-    /// for a delay.
+    /// The contribution of a term with this gain to the output. Except for a delay, the
+    /// contribution is the gain times the regressor.
     ///
     /// The gain of a [`Delay`] is a time, and the contribution is the delayed output minus the
-    /// output. For a positive gain, this contribution is not linear in the gain. Numbers that
-    /// overflow or are not finite have the same consequences as for [`regressor`](Self::regressor).
+    /// output. For a positive gain, this contribution is not linear in the gain. Overflows, and
+    /// inputs that are not finite, are handled as in [`regressor`](Self::regressor).
     ///
     /// ```
     /// use bowden::effect::{Delay, Effect, EffectState, Inputs};

@@ -1,4 +1,4 @@
-//! Effects that are a simple function of one signal, such as an offset, inertia or drift.
+//! Effects that are simple functions of one signal, such as offset, inertia and drift.
 
 use super::declare::effect;
 use super::Dimension;

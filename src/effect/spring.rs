@@ -104,7 +104,7 @@ effect! {
 }
 
 effect! {
-    /// Gravity: the torque of the weight of a lever at the angle x.
+    /// Gravity: the torque due to the weight of a lever at the angle x.
     ///
     /// Formula: `sin(x + psi)`. The channel must be an angle in radians.
     ///
@@ -196,7 +196,7 @@ effect! {
     /// `(x_N, f_N)` is the sum of an offset and N − 1 segments:
     /// `f_1 + Σ (f_(k+1) − f_k)·clip((x − x_k)/(x_(k+1) − x_k), 0, 1)`. The curve is constant
     /// beyond its ends. [`Term::curve`](crate::model::Term::curve) returns these N terms. For a
-    /// curve of the load, use the channel of the load as the source.
+    /// function of the load, use the channel of the load as the source.
     ///
     /// The value of a segment is between 0 and 1 for any input. A segment can therefore be a
     /// regressor of the [adaptive law](crate::control::Adaptive), which then estimates the curve.
@@ -257,7 +257,7 @@ fn share<T: Real>(value: T, from: T, width: T) -> T {
 }
 
 effect! {
-    /// Pinching: a change of the loop near eta = 0.
+    /// Pinching: a change in the loop near eta = 0.
     ///
     /// Formula: `eta·exp(−(eta/w)²)`.
     ///

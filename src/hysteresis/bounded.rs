@@ -26,7 +26,7 @@ pub(super) struct Constants<N> {
     pub size: N,
     /// Coefficients of the path from zero.
     pub series: Series<N>,
-    /// The state after the path 1 from zero.
+    /// The state after a path of length 1 from zero.
     pub after_1: N,
 }
 

@@ -1,6 +1,7 @@
 //! Tests of the step with a wrong power function, and of the number of powers that it evaluates.
 //!
-//! The bounds must not depend on the power function. The number of powers is the cost of a step.
+//! The bounds must not depend on the power function. The number of powers determines the cost of a
+//! step.
 
 use super::bounded::Constants;
 use super::number::Number;

@@ -1,7 +1,7 @@
 //! The state equation of the hysteresis: equations (2) and (7) of Nguyen et al. (2018).
 //!
 //! The names follow the paper. The input `x` is a displacement in (2) and a torque in (7).
-//! [`eta_rate`] is the equation as published. [`f`] is its form along the path (see
+//! [`eta_rate`] is the equation as published. [`f`] is the same equation along the path (see
 //! [`hysteresis`](crate::hysteresis)), so `eta' = d·rho·|x'|·f(d·eta)` with `d = sgn(x')`.
 
 use super::number::Number;

@@ -10,8 +10,9 @@
 //! - sigma ≥ 1/2: the slope after a reversal is 2·sigma·rho.
 //! - n ≥ 1: sharpness of the knee, larger is sharper.
 //!
-//! [`law`] implements this equation. With `d = sgn(x')`, `zeta = d·eta`, `c = 2·sigma - 1` and the
-//! path p, `dp = rho·|dx|`, the equation becomes `dzeta/dp = f(zeta)`, which does not contain time:
+//! [`law`] implements this equation. Let `d = sgn(x')`, `zeta = d·eta` and `c = 2·sigma - 1`. The
+//! path p is defined by `dp = rho·|dx|`. The equation then becomes `dzeta/dp = f(zeta)`, which does
+//! not contain time:
 //!
 //! - loading, `zeta >= 0`: `f = 1 - zeta^n`;
 //! - unloading, `zeta < 0`: `f = 1 + c·|zeta|^n`.
@@ -19,17 +20,17 @@
 //! A reversal is `zeta -> -zeta`. A sample advances the state by an increment of the input, not of
 //! time, so the result does not depend on the sampling rate.
 //!
-//! Two methods integrate along the path. Both keep `|eta| <= 1` for any increment.
-//! - [`BoucWen::advance_split`] splits a long increment, so a jump of any size is accurate. `f64`
-//!   uses this method, for identification.
+//! Two methods integrate the equation along the path. Both keep `|eta| <= 1` for any increment.
+//! - [`BoucWen::advance_split`] splits a long increment, so the result is accurate for an increment
+//!   of any size. `f64` uses this method, for identification.
 //! - [`BoucWen::advance_bounded`] takes any increment in one step, so the computing time is
 //!   bounded. `f32` uses this method, for control loops.
 //!
 //! # The splitting step
 //! Let `a = |zeta|`. One power `a^(n-1)` gives `f` and its first two derivatives:
 //! `f' = -n·k·a^(n-1)` and `|f''| = (n-1)·|f'|/a`, with `k = 1` (loading) or `c` (unloading). The
-//! Taylor series `dzeta = p·f·(1 + p·f'/2 + p²·(f'² + f·f'')/6)` is written as a fraction of third
-//! order:
+//! step replaces the Taylor series `dzeta = p·f·(1 + p·f'/2 + p²·(f'² + f·f'')/6)` with a fraction
+//! that agrees with it to third order:
 //!
 //! `dzeta = p·f / (1 + p·|f'|/2 + p²·(f'²/12 - f·f''/6))`.
 //!
@@ -37,23 +38,23 @@
 //! additional term `27/256·r⁴` with `r = p·f/(1 - zeta)`. Since `1 + 27/256·r⁴ >= r` for every `r`,
 //! `0 <= dzeta <= 1 - zeta` for **any** step. During unloading, the step ends at `zeta = 0`. The
 //! path to this point is the root of a quadratic equation, and the rest of the path is loading.
-//! Comparisons enforce both bounds in spite of rounding errors.
+//! Comparisons enforce both bounds despite rounding errors.
 //!
 //! If `n·(1 - zeta) <= 0.03`, the rest of the path follows a logistic equation with a closed-form
 //! solution. The local error determines where a long increment is split, so the cost of a jump
-//! grows only with `ln(sigma)`. A jump from one saturation to the other evaluates at most 30 powers
-//! for `sigma = 0.6`, 55 for 98, and 100 for 1e6 (test in `garbage.rs`).
+//! grows only with `ln(sigma)`. A jump from one saturation to the opposite saturation evaluates at
+//! most 30 powers for `sigma = 0.6`, 55 for 98, and 100 for 1e6.
 //!
 //! # The bounded-time step
 //! For any increment, the step evaluates one power `a^(n-1)` and at most two coarse powers. In
-//! `f32` it calls no libm function: the power uses a base-2 logarithm and exponential with a
-//! relative error of up to 4e-7 (`src/real/short.rs`). The bounds hold for any power function.
+//! `f32`, it calls no libm function, because the power is computed from a base-2 logarithm and
+//! exponential with a relative error of up to 4e-7. The bounds hold for any power function.
 //!
 //! - **Loading.** With `w = 1 - zeta`, `r = p·f/w` and `g = w·|f'|/f`, the step is
-//!   `dzeta = w·(1 - 1/(1 + m)²)` with `m = r/2 + (3/8 - g/4)·r² + (5/16 - 3g/8 + g²/12)·r³`. Its
-//!   Taylor series to `p³` is that of the equation without the `f''` term. Since f is concave,
-//!   `0 <= g <= 1`. No coefficient of m is negative, so dzeta increases with the path and does not
-//!   exceed w.
+//!   `dzeta = w·(1 - 1/(1 + m)²)` with `m = r/2 + (3/8 - g/4)·r² + (5/16 - 3g/8 + g²/12)·r³`. Up to
+//!   `p³`, the Taylor series of this step equals the series of the equation without the `f''` term.
+//!   Since f is concave, `0 <= g <= 1`. No coefficient of m is negative, so dzeta increases with
+//!   the path and does not exceed w.
 //! - **Unloading.** The path from a to zero is `a·H` with `H = int_0^1 ds/(1 + x·s^n)` and
 //!   `x = c·a^n`. Let `t = p/(a·H)` and `f = 1 + x`. Up to `n·x = 3`, H is a convergent of its
 //!   continued fraction, and `a` becomes `a·(1 - t)/(1 + α·t + β·t² + γ·t³)`. The coefficients
@@ -69,8 +70,8 @@
 //!   distance to saturation decays as in the loading step, at the rate n.
 //!
 //! # Accuracy
-//! The table lists the error of `kappa_eta·eta` for the input `16·sin(pi·t)` at 1 kHz with the
-//! first parameter set of the paper:
+//! The table lists the error of `kappa_eta·eta` for the input `16·sin(pi·t)` at 1 kHz and the first
+//! parameter set of Nguyen et al. (2018):
 //!
 //! | step | error \[N·m\] |
 //! |---|---|
@@ -79,10 +80,10 @@
 //! | bounded-time step in `f32` | 2.5e-4 |
 //! | the same, on the torque reference of the paper | 3.4e-4, mainly from the rounded input |
 //!
-//! For random jumps within ±16 N·m, the error of eta of the splitting step is at most 8e-4 for
-//! every tested shape. The next table lists the largest error of eta in one bounded-time step in
-//! `f32`, with the mean in brackets, for `sigma = 0.6`. The jumps are within ±0.3, ±3 and ±16 N·m
-//! at `rho = 0.09582`, which gives paths of up to 0.06, 0.6 and 3:
+//! For random jumps within ±16 N·m, the splitting step has an error in eta of at most 8e-4 for
+//! every tested shape. The next table lists the largest error in eta of one bounded-time step in
+//! `f32`, for `sigma = 0.6` and `rho = 0.09582`. The mean error is in brackets. The jumps are
+//! within ±0.3, ±3 and ±16 N·m, so the paths are up to 0.06, 0.6 and 3:
 //!
 //! | n | ±0.3 N·m | ±3 N·m | ±16 N·m |
 //! |---|---|---|---|
@@ -95,14 +96,14 @@
 //! With `sigma = 98.36`, the largest errors are 8.5e-4 (`n = 1`), 3.0e-2 (`n = 1.5`) and 1.5e-1
 //! (`n = 10`).
 //!
-//! `cargo bench --bench step` prints the errors on the sine, and the second table. Tests of the
-//! accuracy are in `tests/hysteresis`.
+//! `cargo bench --bench step` prints the errors for the sinusoidal input, and the second table.
+//! Tests of the accuracy are in `tests/hysteresis`.
 //!
 //! # Slope
-//! In the bounded-time step, eta rises by at most `2·sigma` times the path. This bound is proved up
-//! to `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. For n of about 12
-//! or more, the slope during unloading may be up to 1.39 times this bound. An inverse near its
-//! largest sigma may then have more than one solution.
+//! In the bounded-time step, eta changes by at most `2·sigma` times the path. This bound is proved
+//! up to `n = 4` (`theorems/Slope.v`, over the reals) and measured up to `n = 10`. For n of about
+//! 12 or more, the slope during unloading may be up to 1.39 times this bound. With a sigma near the
+//! largest invertible value, the inverse may then have more than one solution.
 //!
 //! Source: Bouc 1967; Wen 1976; Ikhouane & Rodellar, *Systems with Hysteresis*, Wiley 2007,
 //! chapters 2 and 4.

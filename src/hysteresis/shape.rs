@@ -107,8 +107,8 @@ impl<T: Real> BoucWen<T> {
 
     /// Eta after an increment of the input [input unit] of any size.
     ///
-    /// After any finite, nonzero increment, `|eta| <= 1`: an `eta` outside [-1, 1] is clamped
-    /// first. An increment that is not finite returns `eta` unchanged. This function is
+    /// An `eta` outside [-1, 1] is clamped first, so `|eta| <= 1` after any finite, nonzero
+    /// increment. An increment that is not finite returns `eta` unchanged. This function calls
     /// [`advance_bounded`](Self::advance_bounded) for `f32` and
     /// [`advance_split`](Self::advance_split) for `f64`.
     #[inline]
@@ -144,8 +144,8 @@ impl<T: Real> BoucWen<T> {
         direction * bounded::follow(direction * eta, path, &self.constants)
     }
 
-    /// Eta after an increment of the input [input unit]. A long increment is split, so a jump of
-    /// any size is accurate.
+    /// Eta after an increment of the input [input unit]. A long increment is split, so the result
+    /// is accurate for an increment of any size.
     ///
     /// The method is exact for `n = 1` and `n = 2`, and of third order for any other n.
     #[inline]
@@ -232,8 +232,8 @@ impl<T: Real> BoucWen<T> {
 
     /// Slope d(eta)/d(input) [1/input unit] in the direction given by the sign of `direction`.
     ///
-    /// The slope lies in `[0, rho·max(1, 2·sigma)]`. This slope is the right-hand side of (2) and
-    /// (7) divided by `x'`.
+    /// The slope is the right-hand side of (2) and (7) divided by `x'`. It lies in
+    /// `[0, rho·max(1, 2·sigma)]`.
     #[inline]
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {

@@ -12,10 +12,10 @@ impl<T: Real> Term<T> {
     /// The first term is an offset equal to the first f. Each other term is the segment between two
     /// neighbouring points.
     ///
-    /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source. For a curve of the
-    /// load, use the load's channel as the source. Each x has the unit of `over`, and the values of
-    /// x must increase. Each f has the output unit. A curve that is odd in the velocity needs
-    /// points on both sides of zero.
+    /// `over` is [`Quantity::Position`] or [`Quantity::Velocity`] of the source. For a function of
+    /// the load, use the load's channel as the source. Each x has the unit of `over`, and the
+    /// values of x must increase. Each f has the output unit. A curve that is odd in the velocity
+    /// needs points on both sides of zero.
     ///
     /// ```
     /// use bowden::effect::{Motion, Quantity};
@@ -35,8 +35,8 @@ impl<T: Real> Term<T> {
     /// # Errors
     /// - [`Error::NonFinite`] if a number of a point, or the difference between two neighbouring
     ///   points, is not finite.
-    /// - [`Error::OutOfRange`] with `"width"` if x does not increase, or with `"over"` for any
-    ///   other quantity.
+    /// - [`Error::OutOfRange`] with `"width"` if x does not increase, or with `"over"` for a
+    ///   quantity other than position and velocity.
     pub fn curve<const N: usize>(
         over: Quantity,
         source: Source,

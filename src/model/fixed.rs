@@ -65,7 +65,8 @@ impl<T: Real, const N: usize, L: Terms<T, N>> FixedModel<T, N, L> {
         &self.terms
     }
 
-    /// The same model as a [`Model`], for a [`Compensator`](crate::control::Compensator) or a file.
+    /// Converts this model to a [`Model`], for a [`Compensator`](crate::control::Compensator) or a
+    /// file.
     pub fn to_model(&self) -> Model<T, N> {
         Model::full(self.transmission, self.terms.any())
     }

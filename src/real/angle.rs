@@ -1,4 +1,4 @@
-//! Sine and cosine for `f32` in single precision only, because a microcontroller with a
+//! Sine and cosine for `f32`, computed in single precision only. A microcontroller with a
 //! single-precision floating-point unit computes double precision in software.
 //!
 //! The angle is reduced exactly, in integer arithmetic, with the bits of 2/pi that its exponent

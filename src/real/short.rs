@@ -1,8 +1,8 @@
 //! Elementary functions for `f32` with few instructions, for a control loop.
 //!
 //! The base-2 logarithm and exponential take about 20 instructions each on a Cortex-M4F, with at
-//! most one division and no table. The hysteresis computes its powers with them; its bound |eta| <=
-//! 1 holds for any power function.
+//! most one division and no table. The hysteresis uses them to compute its powers. The bound |eta|
+//! <= 1 holds for any power function.
 //!
 //! | function | arguments | largest error |
 //! |---|---|---|
@@ -13,9 +13,9 @@
 //! | [`exp`] | -87 to 88 | 8e-8·abs(x) + 3e-7 of the result |
 //! | [`tanh`] | all | 4e-7 of the result |
 //!
-//! `cargo test --test exhaustive -- --ignored` checks the table at all arguments, and the power at
-//! every eighth argument. For an argument outside these ranges, each function returns an arbitrary
-//! float.
+//! `cargo test --test exhaustive -- --ignored` checks the errors in this table at all arguments,
+//! and the error of the power at every eighth argument. For an argument outside these ranges, the
+//! result is arbitrary.
 
 use core::f32::consts::{LN_2, LOG2_E};
 

@@ -15,13 +15,13 @@ mod prewarped;
 /// low-pass  1/(s² + s/q + 1)       q = 1/√2: Butterworth; q = 1/2: critically damped
 /// notch     (s² + 1)/(s² + s/q + 1)   −3 dB width: frequency/q
 /// ```
-/// Both filters have a gain of 1 at zero frequency, and the output reaches a constant input to the
-/// last bit.
+/// Both filters have a gain of 1 at zero frequency. If the input is constant, the output reaches
+/// exactly this value.
 ///
 /// **Design.** The filter uses the bilinear transform, prewarped for the sample time `T`. Its
 /// response at `f` \[Hz\] is the transfer function at `s = i·tan(π·f·T)/tan(π·frequency·T)`. The
-/// response at `frequency` is therefore exact. `dt` may vary: each step integrates over its own
-/// `dt` with the trapezoidal rule, with the prewarping for `T`. If `dt` is `(1 + e)·T`, the
+/// response at `frequency` is therefore exact. `dt` may vary. Each step integrates over its own
+/// `dt` with the trapezoidal rule and with the prewarping for `T`. If `dt` is `(1 + e)·T`, the
 /// relative error of the corner frequency is less than `|e|·(π·frequency·T)²`, to first order in
 /// `e`.
 ///
@@ -30,12 +30,13 @@ mod prewarped;
 /// direct form, it remains accurate in `f32` for a corner below 1/1000 of the sample rate
 /// (`tests/signal/filters.rs`).
 ///
-/// **Bounds.** For a constant sample `c`, the sum `band² + (low − c)²` of the two integrators never
-/// increases, for any sequence of `dt`. The output of a low-pass that starts at rest is therefore
-/// never further from `c` than at the start. The following limits apply to a start from rest with
-/// `dt` equal to the sample time. The output of a low-pass is at most `2 + 4·q/π` times the largest
-/// sample, and the output of a notch is at most 3 times the largest sample. These limits were
-/// computed on a grid of `frequency` and `q` (`tests/signal/filters.rs`).
+/// **Bounds.** For a constant input `c`, the sum `band² + (low − c)²` never increases, for any
+/// sequence of `dt`. Here, `band` and `low` are the values of the two integrators. The output of a
+/// low-pass that starts at rest is therefore never further from `c` than at the start. If the
+/// filter starts at rest and `dt` equals the sample time, two limits apply. The output of a
+/// low-pass is at most `2 + 4·q/π` times the largest sample. The output of a notch is at most 3
+/// times the largest sample. These limits were computed on a grid of `frequency` and `q`
+/// (`tests/signal/filters.rs`).
 ///
 /// ```
 /// use bowden::signal::{Biquad, BiquadState};
@@ -153,10 +154,10 @@ crate::checked! {
 impl<T: Real> Biquad<T> {
     /// The output \[signal unit\] for a sample taken `dt` \[s\] after the last one.
     ///
-    /// The filter starts at rest at the first good sample, and the output is then that sample. A
-    /// sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
+    /// The filter starts at rest at the first good sample, and the output then equals this sample.
+    /// A sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
     /// leaves the state unchanged and returns the last output, or zero before the first good
-    /// sample. If the next state would overflow, the filter restarts at rest at the sample.
+    /// sample. If the next state would overflow, the filter restarts at rest at this sample.
     #[inline]
     pub fn step(&self, state: &mut BiquadState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() && dt.is_finite() && dt > T::ZERO {
@@ -206,7 +207,7 @@ impl<T: Real> BiquadState<T> {
         }
     }
 
-    /// A state at rest at a value \[signal unit\].
+    /// A state at rest at the given value \[signal unit\].
     #[inline]
     pub const fn at(value: T) -> Self {
         Self {

@@ -7,7 +7,7 @@ crate::checked::stored! {
     /// Derivative with a first-order filter.
     ///
     /// The rate `v⁺ = (tau·v + x - x_last)/(tau + dt)` is the difference quotient through a
-    /// first-order lag in its backward Euler form. This form is stable for any `dt`, which may
+    /// first-order lag in its backward Euler form. This form is stable for any `dt`, and `dt` may
     /// vary. The rate is zero at the first sample, so there is no derivative kick.
     ///
     /// ```
@@ -42,7 +42,8 @@ crate::checked::stored! {
 crate::checked! {
     Derivative<T>;
 
-    /// A derivative with `time_constant >= 0` \[s\]. With zero there is no filter.
+    /// A derivative with `time_constant >= 0` \[s\]. With a time constant of zero, there is no
+    /// filter.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.

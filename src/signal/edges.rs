@@ -9,8 +9,8 @@ crate::checked::stored! {
     /// Velocity from the time between counts (period measurement or M/T method).
     ///
     /// If a counter changes less than once per sample, its difference quotient is either zero or
-    /// one count per `dt`. Instead, this type uses the number M of counts and the time T between
-    /// two samples with counts, which is known to one `dt`:
+    /// one count per `dt`. Instead, this type divides the number M of counts by the time T between
+    /// two samples with counts. T is known to within one `dt`:
     ///
     /// ```text
     /// v⁺ = v + (1 − e^(−T/tau))·(M·count/T − v)   at a sample with counts
@@ -19,19 +19,20 @@ crate::checked::stored! {
     /// * **Error**: at a constant speed of `f` counts per second, the relative error is at most
     ///   `f·dt/(1 − f·dt)` if `f·dt < 1` (at least one sample per count). At any speed, it is at
     ///   most `dt/tau·min(1, 1/(f·dt))`.
-    /// * **Delay**: at a count, slow changes have a delay of `T·(1/2 + q/(1 − q))` with
-    ///   `q = e^(−T/tau)`. This delay is about `T/2` at low speed and tau at high speed. Until the
-    ///   next count the velocity is held, which adds `T/2` on average.
+    /// * **Delay**: at a count, the velocity follows slow changes with a delay of
+    ///   `T·(1/2 + q/(1 − q))`, where `q = e^(−T/tau)`. This delay is about `T/2` at low speed and
+    ///   tau at high speed. The velocity is held until the next count, which adds `T/2` on average.
     /// * **Stop**: without a count, the bound on the velocity falls with time. After `longest_gap`
     ///   without a count, the velocity is zero and the status is [`RateStatus::Stopped`]. A speed
-    ///   below `count/longest_gap` therefore counts as a stop.
+    ///   below `count/longest_gap` is therefore reported as a stop.
     /// * **Reversal**: after a reversal, the first count passes the same encoder line as the
-    ///   previous count, so the axis has moved by one count less. Dither of one count gives zero
+    ///   previous count. The axis has therefore moved by one count less. Dither of one count gives
+    ///   zero velocity.
+    /// * **Start**: the first count only locates an encoder line. The second count gives the first
     ///   velocity.
-    /// * **Start**: the first count only locates a line. The second count gives the first velocity.
-    /// * **Bad samples**: a bad sample does not change the velocity, but its `dt` is included in T.
-    ///   After a `dt` that is negative or not finite, the time is unknown, and the next count
-    ///   starts a new interval.
+    /// * **Bad samples**: a bad sample does not change the velocity, but T includes its `dt`. After
+    ///   a `dt` that is negative or not finite, the time is unknown, and the next count starts a
+    ///   new interval.
     ///
     /// Source: T. Ohmae et al., *A microprocessor-controlled high-accuracy wide-range speed
     /// regulator for motor drives*, IEEE Trans. Ind. Electron. 29 (1982) 207-211 (M/T method).
@@ -70,7 +71,7 @@ crate::checked::stored! {
 crate::data! {
     /// Output of an [`EdgeVelocity`]'s step.
     pub struct EdgeVelocityOutput<T> {
-        /// The velocity \[channel unit/s\]: finite, and zero until two counts are known.
+        /// The velocity \[channel unit/s\]: finite, and zero until the position has changed twice.
         pub velocity: T,
         /// Validity of the velocity.
         pub status: RateStatus,
@@ -97,9 +98,9 @@ crate::checked! {
 
     /// Velocity from positions that change by multiples of `count` \[channel unit\].
     ///
-    /// The velocity is averaged over `time_constant` \[s\] if several counts occur in this time. A
-    /// time of `longest_gap` \[s\] without a count means a stop. All three arguments must be
-    /// positive.
+    /// The velocity is averaged over `time_constant` \[s\] if several counts occur in this time. If
+    /// no count occurs for `longest_gap` \[s\], the axis is regarded as stopped. All three
+    /// arguments must be positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"count"`, `"time_constant"` or
@@ -112,10 +113,10 @@ crate::checked! {
         Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
-    /// The same configuration for positions modulo `period > 0` \[channel unit\], such as those of
-    /// a counter.
+    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// period must be positive.
     ///
-    /// Between two good samples the axis must move by less than half a period.
+    /// Between two good samples, the axis must move by less than half a period.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
@@ -130,8 +131,8 @@ impl<T: Real> EdgeVelocity<T> {
     /// The velocity \[channel unit/s\] at a `position` \[channel unit\] measured `dt` \[s\] after
     /// the last call.
     ///
-    /// `dt` is the time since the last call, even if the last sample was bad. If the distance from
-    /// the last position overflows, the measurement restarts.
+    /// `dt` is the time since the last call, even if the last sample was bad. If the difference
+    /// from the last position overflows, the measurement restarts.
     #[inline]
     pub fn step(
         &self,
@@ -262,7 +263,7 @@ impl<T: Real> EdgeVelocityState<T> {
         }
     }
 
-    /// The velocity \[channel unit/s\]; zero until two counts are known.
+    /// The velocity \[channel unit/s\]; zero until the position has changed twice.
     pub fn velocity(&self) -> T {
         self.velocity.unwrap_or(T::ZERO)
     }

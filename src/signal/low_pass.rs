@@ -8,11 +8,11 @@ crate::checked::stored! {
     /// First-order low-pass filter.
     ///
     /// The output `y⁺ = y + dt/(tau + dt)·(x − y)` is the lag `tau·y' = x − y` in its backward
-    /// Euler form. This form is stable for any `dt`, which may vary. The corner is at
+    /// Euler form. This form is stable for any `dt`, and `dt` may vary. The corner is at
     /// `1/(2π·tau)` \[Hz\], with a relative error of the order of `dt/tau`. For slow signals, the
     /// delay is tau and the gain is 1.
     ///
-    /// The filter starts at rest at the first good sample, and the output is then that sample.
+    /// The filter starts at rest at the first good sample, and the output then equals this sample.
     /// Except for rounding errors, the output stays within the range of the samples. The output is
     /// a compensated sum, so it reaches a constant input even in `f32`.
     ///
@@ -49,7 +49,8 @@ crate::checked::stored! {
 crate::checked! {
     LowPass<T>;
 
-    /// A low-pass with `time_constant >= 0` \[s\]. With zero, the output is the sample.
+    /// A low-pass with `time_constant >= 0` \[s\]. With a time constant of zero, the output equals
+    /// the sample.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"time_constant"`.
@@ -65,7 +66,7 @@ impl<T: Real> LowPass<T> {
     /// A sample is bad if it is not finite, or if `dt` is not positive and finite. A bad sample
     /// leaves the state unchanged and returns the last output, or zero before the first good
     /// sample. If the difference between a sample and the output overflows, the filter restarts at
-    /// rest at the sample.
+    /// rest at this sample.
     #[inline]
     pub fn step(&self, state: &mut LowPassState<T>, sample: T, dt: T) -> T {
         if sample.is_finite() && dt.is_finite() && dt > T::ZERO {
@@ -96,7 +97,7 @@ impl<T: Real> LowPassState<T> {
         Self { sum: None }
     }
 
-    /// A state at rest at a value \[signal unit\].
+    /// A state at rest at the given value \[signal unit\].
     #[inline]
     pub const fn at(value: T) -> Self {
         Self {

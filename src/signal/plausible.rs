@@ -10,7 +10,7 @@ crate::checked::stored! {
     /// A controller rejects NaN, but cannot detect a finite reading that is wrong. Examples are an
     /// encoder that was reset, a shorted strain-gauge bridge, and a bus that repeats its last
     /// frame. Use a `Plausible` upstream of each input of the controller. It replaces an
-    /// implausible sample by NaN, so the controller holds its command and counts a bad sample.
+    /// implausible sample with NaN, so the controller holds its command and counts a bad sample.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -95,7 +95,7 @@ crate::checked! {
         Ok(Plausible { low, high, rate, sample_period, stuck_after, longest_dt })
     }
 
-    /// The same check with a positive limit `rate` \[signal unit/s\] on the rate of change.
+    /// Sets the largest rate of change `rate` \[signal unit/s\], which must be positive.
     ///
     /// For an angle that wraps around, a rate limit would reject each wrap. Instead, check the
     /// range of the velocity from [`Rates`](crate::signal::Rates) with its period.
@@ -104,16 +104,17 @@ crate::checked! {
     /// measurement. The next reading may differ by `rate` times the time since the last *change*.
     ///
     /// After a reading has repeated for `t` seconds, the check also accepts a spike of up to
-    /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`.
-    /// [`with_sample_period`](Self::with_sample_period) bounds the spike and this time. Use it for
-    /// a sensor that is not synchronous with the loop, or whose readings repeat while the signal is
-    /// constant, such as an encoder.
+    /// `rate·(t + dt)`. It then rejects the true reading for the time `distance/rate`, where
+    /// `distance` is the height of the spike. [`with_sample_period`](Self::with_sample_period)
+    /// bounds the spike and this time. Use this setting for a sensor that is not synchronous with
+    /// the loop, or whose readings repeat while the signal is constant, such as an encoder.
     ///
     /// While the check rejects samples, the permitted difference grows with time. If the signal has
-    /// in fact jumped, the check accepts it again after the time `distance/rate`, rounded up to the
-    /// next sample. The same applies to the new position of an encoder that was reset.
-    /// [`Rates`](crate::signal::Rates) downstream of the check then gives a velocity of up to
-    /// `rate`. [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) prevents a
+    /// in fact jumped, the check accepts the new value after the time `distance/rate`, rounded up
+    /// to the next sample. Here, `distance` is the height of the jump. The same applies to the new
+    /// position of an encoder that was reset. [`Rates`](crate::signal::Rates) downstream of the
+    /// check then gives a velocity of up to `rate`.
+    /// [`Compensator::with_ranges`](crate::control::Compensator::with_ranges) prevents a
     /// feed-forward from using this velocity.
     ///
     /// # Errors
@@ -124,13 +125,14 @@ crate::checked! {
         Ok(Plausible { rate, ..sensor })
     }
 
-    /// The same check for a sensor with a sampling period of at most `sample_period` \[s\].
+    /// Sets the longest sampling period of the sensor, `sample_period` \[s\].
     ///
-    /// Include the jitter of the sensor and of its bus. The check then assumes that every reading
-    /// is at most this old, and the next reading may differ by `rate·(sample_period + dt)`. The
-    /// same difference is the largest spike that the check accepts directly after a plausible
-    /// sample. This difference depends neither on the number of repetitions nor on the phase
-    /// between sensor and loop. Without a rate limit, this setting has no effect.
+    /// Include the jitter of the sensor and its bus in this period. The check then assumes that
+    /// every reading is at most this old, and the next reading may differ by
+    /// `rate·(sample_period + dt)`. The same difference is the largest spike that the check accepts
+    /// directly after a plausible sample. This difference depends neither on the number of
+    /// repetitions nor on the phase between sensor and loop. Without a rate limit, this setting has
+    /// no effect.
     ///
     /// ```
     /// use bowden::signal::{Implausible, Plausible, PlausibleState};
@@ -153,7 +155,7 @@ crate::checked! {
         Ok(Plausible { sample_period, ..sensor })
     }
 
-    /// The same check with a longest `dt` \[s\], which replaces a longer or unusable `dt`.
+    /// Sets the longest `dt` \[s\], which replaces a longer or unusable `dt`.
     ///
     /// A timer that wraps may report a negative `dt`, or a `dt` of an hour. Without this setting,
     /// the check would then accept one spike anywhere in the range, and reject the true samples
@@ -168,11 +170,11 @@ crate::checked! {
 }
 
 impl<T: Real> Plausible<T> {
-    /// The same check, which also rejects a stuck sensor after `samples` repetitions of a reading;
-    /// 0 disables this check.
+    /// Sets the number of repetitions `samples` after which a reading is rejected, because the
+    /// sensor may be stuck. A value of 0 disables this rule.
     ///
-    /// Each sample is then rejected until the reading changes. If this prevents the machine from
-    /// moving, start with a new [`PlausibleState`].
+    /// The check then rejects each sample until the reading changes. If this prevents the machine
+    /// from moving, start with a new [`PlausibleState`].
     ///
     /// The check counts repetitions only while the machine moves. A coarse encoder repeats its
     /// reading at low speed, so `samples` must be larger than the number of samples per count at
@@ -187,14 +189,14 @@ impl<T: Real> Plausible<T> {
 
     /// Checks a sample taken `dt` \[s\] after the previous one.
     ///
-    /// Set `moves` if the machine moves, so that the signal must change, for example if the command
-    /// or another sensor has changed.
+    /// Set `moves` to `true` if the machine moves, so that the signal must change. Indications are
+    /// a change in the command or in another sensor.
     ///
     /// A `dt` of zero adds no time. With a rate limit and without a sample period, the sample after
     /// a change must then have the same value. The longest `dt` (see
     /// [`with_longest_dt`](Self::with_longest_dt)) replaces a `dt` that is negative, NaN or
-    /// infinite. Without that setting the time is unknown, and any sample in the range is plausible
-    /// until the reading changes. A sample that is not finite is never plausible.
+    /// infinite. Without that setting, the time is unknown, and any sample in the range is
+    /// plausible until the reading changes. A sample that is not finite is never plausible.
     #[inline]
     pub fn step(
         &self,

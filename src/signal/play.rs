@@ -9,8 +9,8 @@ crate::checked::stored! {
     ///
     /// The output is `y⁺ = clamp(y, x - r, x + r)`. An oscillation of the input with a peak-to-peak
     /// amplitude of up to 2r does not change the output. Upstream of a hysteresis, a play therefore
-    /// prevents false reversals from sensor noise. A half-width of four standard deviations of the
-    /// noise is sufficient (see [`transmission`](crate::transmission)).
+    /// prevents false reversals caused by sensor noise. A half-width of four standard deviations of
+    /// the noise is sufficient (see [`transmission`](crate::transmission)).
     ///
     /// Source: Krasnosel'skii & Pokrovskii, *Systems with Hysteresis*, 1989.
     ///
@@ -44,7 +44,8 @@ crate::checked::stored! {
 crate::checked! {
     Play<T>;
 
-    /// A play with `half_width >= 0` [input unit]. With zero, the output is the input.
+    /// A play with `half_width >= 0` [input unit]. With a half-width of zero, the output equals the
+    /// input.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"half_width"`.
@@ -55,7 +56,7 @@ crate::checked! {
 }
 
 impl<T: Real> Play<T> {
-    /// No play: the output is the input.
+    /// No play: the output equals the input.
     pub(crate) const NONE: Self = Self {
         half_width: T::ZERO,
     };

@@ -56,8 +56,8 @@ crate::checked! {
         Ok(Ramp { rate, time_constant, longest_dt })
     }
 
-    /// The same ramp with a longest `dt` \[s\] (default: any finite `dt`). A longer `dt` leaves the
-    /// reference unchanged.
+    /// Sets the longest `dt` \[s\] (default: any finite `dt`). A longer `dt` leaves the reference
+    /// unchanged.
     ///
     /// Use the longest `dt` of the controller. Without this limit, a timer that wraps would move
     /// the reference to its target in one sample. The controller would reject this sample, and
@@ -74,9 +74,9 @@ crate::checked! {
 impl<T: Real> Ramp<T> {
     /// The reference \[signal unit\] `dt` \[s\] later, on its way to `wanted` \[signal unit\].
     ///
-    /// A `wanted` that is not finite, or a `dt` that is not positive or too long, leaves the
-    /// reference unchanged. The reference never overshoots a constant `wanted`. If `wanted`
-    /// reverses during the ramp, the lag may overshoot it by up to `rate·time_constant`.
+    /// The reference does not change if `wanted` is not finite, or if `dt` is not positive or is
+    /// too long. The reference never overshoots a constant `wanted`. If `wanted` reverses during
+    /// the ramp, the lag may overshoot it by up to `rate·time_constant`.
     #[inline]
     pub fn step(&self, state: &mut RampState<T>, wanted: T, dt: T) -> T {
         if wanted.is_finite() && dt > T::ZERO && dt <= self.longest_dt {
@@ -110,7 +110,7 @@ fn towards<T: Real>(from: Compensated<T>, way: T, target: T) -> Compensated<T> {
 }
 
 impl<T: Real> RampState<T> {
-    /// A state at rest at a value \[signal unit\].
+    /// A state at rest at the given value \[signal unit\].
     pub const fn at(value: T) -> Self {
         let value = Compensated::new(value);
         Self { ramp: value, value }

@@ -25,21 +25,23 @@ crate::checked::stored! {
     /// v⁺ = v + s·((x − x_last)/h − v)
     /// a⁺ = a + s·((v⁺ − v)/h − a)
     /// ```
-    /// With the time constant tau, and well below the sample rate, `V/X = s/(tau·s + 1)` and
-    /// `A/X = s²/(tau·s + 1)²`. The position has no delay, the velocity has a delay of tau, and the
-    /// acceleration has a delay of 2·tau. At `f` \[Hz\], with `w = 2π·f·tau`, the gain of the
-    /// velocity is `1/√(1 + w²)` and its phase lag is `atan(w)`. The acceleration has the square of
-    /// this gain and twice this lag. At any sample rate, with `q = e^(−h/tau)`,
-    /// `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the velocity is therefore exact. The
-    /// delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to within `h²/(12·tau)`.
+    /// At frequencies well below the sample rate, the transfer functions are `V/X = s/(tau·s + 1)`
+    /// and `A/X = s²/(tau·s + 1)²`, where tau is the time constant. The position has no delay, the
+    /// velocity has a delay of tau, and the acceleration has a delay of 2·tau. At `f` \[Hz\], with
+    /// `w = 2π·f·tau`, the gain of the velocity is `1/√(1 + w²)` and its phase lag is `atan(w)`.
+    /// The acceleration has the square of this gain and twice this lag. At any sample rate, with
+    /// `q = e^(−h/tau)`, `V/X = (1 − q)/(1 − q·z⁻¹)·(1 − z⁻¹)/h`. For a ramp, the velocity is
+    /// therefore exact. The delay at low frequencies is `h·(1/2 + q/(1 − q))`, which is tau to
+    /// within `h²/(12·tau)`.
     ///
     /// White noise with a standard deviation of `s_x` on the position gives noise of about
     /// `s_x/tau` on the velocity and `s_x/tau²` on the acceleration. Both values are smaller if tau
     /// is not much larger than h.
     ///
     /// * **First sample**: velocity and acceleration start at zero. On an axis that moves at the
-    ///   velocity V, the computed velocity is then `V·(1 − e^(−t/tau))`, and the acceleration has a
-    ///   pulse of `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time constants.
+    ///   velocity V, the computed velocity is then `V·(1 − e^(−t/tau))`. The acceleration has a
+    ///   pulse with the height `V/(e·tau)`. The status is [`RateStatus::Settling`] for five time
+    ///   constants.
     /// * **Bad samples**: if the position is not finite, or if `dt` is not positive and finite, the
     ///   last good motion is held. The status reports the fault.
     /// * **Gaps**: h is the time since the last good sample, including the time of bad samples. If
@@ -48,10 +50,10 @@ crate::checked::stored! {
     ///   sample then only sets the position, and velocity and acceleration are held.
     /// * **Wrap-around** of a counter: see [`with_period`](Self::with_period).
     /// * **Long runs**: a position in `f32` has a resolution of up to `2⁻²³·|x|`, which appears as
-    ///   noise in velocity and acceleration. At 1000 rad the resolution is 6e-5 rad, so with tau =
-    ///   10 ms the noise is up to 0.006 rad/s and 0.6 rad/s². For an axis that turns continuously,
-    ///   use the position modulo its period. An integer then counts the turns, and only the
-    ///   returned position has this rounding error.
+    ///   noise in velocity and acceleration. At 1000 rad, the resolution is 6e-5 rad. With tau = 10
+    ///   ms, the noise is then up to 0.006 rad/s and 0.6 rad/s². For an axis that turns
+    ///   continuously, use the position modulo its period. An integer then counts the turns, and
+    ///   only the returned position has this rounding error.
     ///
     /// ```
     /// use bowden::signal::{Rates, RatesState, RateStatus};
@@ -95,7 +97,7 @@ crate::data! {
         Settling,
         /// A good sample after an unknown time. [`Rates`] holds velocity and acceleration.
         Resumed,
-        /// No count for longer than the longest gap. The velocity of an
+        /// No count has occurred within the longest gap. The velocity of an
         /// [`EdgeVelocity`](super::EdgeVelocity) is zero.
         Stopped,
         /// A bad sample. The last good velocity and acceleration are held.
@@ -147,7 +149,7 @@ crate::checked! {
         constants * time_constant
     }
 
-    /// Rates with `time_constant > 0` \[s\].
+    /// An estimator with `time_constant > 0` \[s\].
     ///
     /// The longest gap is ten time constants. If the sample time is longer, use
     /// [`with_longest_gap`](Self::with_longest_gap). Otherwise, velocity and acceleration restart
@@ -163,18 +165,18 @@ crate::checked! {
         Ok(Rates { time_constant, longest_gap, period })
     }
 
-    /// Rates for a model that was fitted with the cut-off frequency `cutoff` \[Hz\].
+    /// An estimator for a model that was fitted with the cut-off frequency `cutoff` \[Hz\].
     ///
     /// The fit smooths its derivatives with a corner at 2.5 times its cut-off frequency f_c. This
     /// filter has the same corner: `tau = 1/(2π·2.5·f_c)`. At f_c, the velocity has 93 % of its
-    /// amplitude and a lag of 22°, and the acceleration has 86 % of its amplitude and a lag of 44°.
-    /// The delays are `0.064/f_c` and `0.127/f_c`. The error of the model is larger with these
-    /// causal derivatives, because the smoother of the fit has zero phase. A shorter tau reduces
+    /// amplitude and a lag of 22°. The acceleration has 86 % of its amplitude and a lag of 44°. The
+    /// delays are `0.064/f_c` and `0.127/f_c`. With these causal derivatives, the error of the
+    /// model is larger than in the fit, which uses zero-phase derivatives. A shorter tau reduces
     /// the delay but increases the noise.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. The second error includes a
-    /// `cutoff` whose time constant is not a positive finite float.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"cutoff"`. `OutOfRange` is also returned
+    /// if the time constant is not a positive finite float.
     pub fn for_cutoff(cutoff: T) {
         above_zero!(cutoff, "cutoff");
         let corner: T = of(CORNER);
@@ -187,13 +189,13 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// The same estimator for positions modulo `period > 0` \[channel unit\], such as those of a
-    /// counter.
+    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// period must be positive.
     ///
     /// The position of the motion is unwrapped, so it continues when the counter wraps. Between two
-    /// good samples the axis must move by less than half a period, which
-    /// `period > 2·|v|·longest_gap` ensures for every gap. Beyond 2³¹ turns, the position is wrong
-    /// by whole periods, but velocity and acceleration are still correct.
+    /// good samples, the axis must move by less than half a period. The condition
+    /// `period > 2·|v|·longest_gap` ensures this for every gap. Beyond 2³¹ turns, the position is
+    /// wrong by whole periods, but velocity and acceleration are still correct.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"period"`.
@@ -203,7 +205,7 @@ crate::checked! {
         Ok(Rates { period, ..rates })
     }
 
-    /// The same estimator with another longest gap \[s\], which must be positive.
+    /// Sets the longest gap \[s\], which must be positive.
     ///
     /// The longest gap must exceed the longest `dt` of the loop in normal operation.
     ///

@@ -6,7 +6,7 @@ use crate::Real;
 /// The inverse of a transmission, which computes the input for a desired output.
 ///
 /// [`Transmission::inverse`](super::Transmission::inverse) creates an `Inverse`, and checks that
-/// the input is unique. The state has the type of the transmission's state. After
+/// the input is unique. An `Inverse` and its transmission use the same type of state. After
 /// [`step`](Self::step), the state equals that of the forward model after the same input.
 ///
 /// ```
@@ -40,14 +40,14 @@ const MOST_EVALUATIONS: u32 = 100;
 impl<T: Real> Inverse<T> {
     /// The input [input unit] for which the forward model gives `desired_output`.
     ///
-    /// The forward model then returns `desired_output` with an error of at most 16 machine epsilons
-    /// times the sum of the magnitudes in its equation, including the last input. The guaranteed
-    /// error is never below the smallest normal number. The solver is a secant method inside a
-    /// bracket that contains the solution. It usually needs one or two evaluations of the forward
-    /// model, and at most 100.
+    /// For this input, the output of the forward model equals `desired_output` up to a small error.
+    /// The error is at most 16 machine epsilons times the sum of the magnitudes in the equation,
+    /// including the last input. If this bound is below the smallest normal number, the smallest
+    /// normal number applies instead. The solver is a secant method inside a bracket that contains
+    /// the solution. It usually needs one or two evaluations of the forward model, and at most 100.
     ///
-    /// The first step keeps the eta of the state, as in the forward model. In two cases, a step
-    /// leaves the state unchanged and returns the last input, or zero if there is none:
+    /// The first step does not change eta, as in the forward model. In two cases, a step leaves the
+    /// state unchanged and returns the last input, or zero if there is none:
     /// - the desired output is not finite;
     /// - the input, or the path to this input, exceeds the range of floats.
     pub fn step(&self, state: &mut BoucWenState<T>, desired_output: T) -> T {

@@ -5,7 +5,7 @@ use crate::signal::Compensated;
 use crate::Real;
 
 crate::data! {
-    /// Leakage of an estimate back to its prior, which prevents drift.
+    /// Leakage of an estimate towards its prior, to prevent drift.
     pub enum Leakage<T> {
         /// No leakage: only the bounds limit the estimate.
         None,
@@ -69,12 +69,13 @@ impl<T: Real> Leakage<T> {
 }
 
 crate::data! {
-    /// Adaptation of one estimate `p`: equations (24) to (26) in sampled time, with bounds.
+    /// Adaptation of one estimate `p`: equations (24) to (26) in discrete time, with bounds.
     ///
     /// The update is `p⁺ = (p + h·(gain·v + sigma·prior))/(1 + h·sigma)`, clamped to `[low, high]`.
     /// Here v is the driving term (`-lambda·s·x` for a regressor x). The leakage is implicit, so it
     /// cannot overshoot at any rate. The steady state of the estimate, `prior + gain·v/sigma`, does
-    /// not depend on h. Compensated summation prevents slow leakage from stalling in `f32`.
+    /// not depend on h. Compensated summation prevents slow leakage from being lost to rounding in
+    /// `f32`.
     ///
     /// ```
     /// use bowden::control::{Estimator, Leakage};
@@ -123,16 +124,16 @@ impl<T: Real> Estimator<T> {
         Self::fixed(initial).within(T::LOWEST, T::HIGHEST)
     }
 
-    /// The same estimate with bounds \[unit of the estimate\].
+    /// Sets the bounds \[unit of the estimate\].
     #[must_use]
     pub const fn within(self, low: T, high: T) -> Self {
         Self { low, high, ..self }
     }
 
-    /// The same estimate with an adaptation gain and a constant leakage \[1/s\].
+    /// Sets the adaptation gain and a constant leakage rate \[1/s\].
     ///
-    /// Set bounds with [`within`](Self::within), or start from [`free`](Self::free): an estimate
-    /// with a gain requires `low < high`.
+    /// An estimate with a gain requires `low < high`. Set the bounds with [`within`](Self::within),
+    /// or start from [`free`](Self::free).
     #[must_use]
     pub const fn adapting(self, gain: T, leakage: T) -> Self {
         let leakage = Leakage::Constant { rate: leakage };

@@ -1,22 +1,22 @@
 //! Robust adaptive torque control with regressors, equations (17) to (26).
 //!
 //! The plant is `y = alpha·u - theta'x - D` (11). The errors are `e = y - y_r`, `z = ∫e` and
-//! `s = e + lambda·z`. The virtual command (23) is `ubar = -k·s + y_r - (z + e')/lambda +
-//! theta_hat'x - delta_hat·T(s/eps)`. Equation (19) multiplies ubar by beta_hat, the estimate of
-//! 1/alpha. The estimates follow (24) to (26). The regressors of Nguyen et al. (2018) are velocity
-//! and acceleration. **Each identified effect can be a further regressor**, with its identified
-//! coefficient as prior.
+//! `s = e + lambda·z`. The virtual command (23) is
+//! `ubar = -k·s + y_r - (z + e')/lambda + theta_hat'x - delta_hat·T(s/eps)`. Equation (19)
+//! multiplies ubar by beta_hat, the estimate of 1/alpha. The estimates follow (24) to (26). The
+//! regressors of Nguyen et al. (2018) are velocity and acceleration. **Any identified effect can be
+//! an additional regressor.** Use its identified coefficient as the prior.
 //!
-//! **Two forms for two kinds of plant.** In sampled time, e' in (23) creates an algebraic loop:
+//! **Two forms for two kinds of plant.** In discrete time, e' in (23) creates an algebraic loop.
+//! The two forms treat this loop differently:
 //! - The form [as published](Form::AsPublished) is for plants with inertia. It computes e' as a
 //!   filtered difference.
 //! - The [first-order](Form::FirstOrder) form is for plants that respond within a sample. It solves
-//!   the loop for e'.
+//!   the algebraic loop for e'.
 //!
 //! **Bounds on the estimates.** The adaptive law clamps each estimate to its bounds (projection).
-//! If the true value lies within the bounds, the clamp cannot increase the Lyapunov function, and
-//! every invariant holds for any measurement. The first-order form requires positive bounds for
-//! beta_hat, and non-negative bounds for delta_hat.
+//! If the true value lies within the bounds, the clamp cannot increase the Lyapunov function. The
+//! first-order form requires positive bounds for beta_hat, and non-negative bounds for delta_hat.
 
 mod estimator;
 #[cfg(kani)]
@@ -75,8 +75,8 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Whether the state is valid for this law: its numbers are finite, and z, the estimates and
     /// the command are within their limits.
     ///
-    /// Call this method before the first use of a stored state. A step maps a valid state to a
-    /// valid state, for any input.
+    /// Call this method before the first use of a stored state. For any input, a step from a valid
+    /// state leads to a valid state.
     ///
     /// ```
     /// use bowden::control::{Adaptive, AdaptiveState};
@@ -102,12 +102,13 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 impl<T: Real> Adaptive<T, 2> {
-    /// Table 2 of Nguyen et al. (2018), with its initial estimates and no projection.
+    /// The adaptive law with the settings in Table 2 of Nguyen et al. (2018), without bounds on the
+    /// estimates.
     ///
-    /// The form is as published. The 5 ms filter of e' is not from the paper. The regressors are
-    /// velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal pulley. beta_hat starts at
-    /// zero, where the loop is singular, so the output overshoots at start-up (Figure 9). To avoid
-    /// this overshoot, set bounds and `beta.initial = 0.8/alpha`.
+    /// The form is as published. The filter of e', with a time constant of 5 ms, is not from the
+    /// paper. The regressors are velocity \[rad/s\] and acceleration \[rad/s²\] of the proximal
+    /// pulley. beta_hat starts at zero, where the loop gain is zero, so the output overshoots at
+    /// start-up (Figure 9). To avoid this overshoot, set bounds and `beta.initial = 0.8/alpha`.
     ///
     /// ```
     /// use bowden::control::Adaptive;

@@ -25,7 +25,7 @@ pub struct Disturbance<T> {
     pub delta_hat: T,
     /// `w = (g-1)·(r + (r⁺-r)/(h·lambda)) + (g·theta_hat - theta)'x - D` \[N·m\].
     pub w: T,
-    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the decrease of the plant's output at a constant
+    /// `xi = (D⁺ - D) + theta'(x⁺ - x)` \[N·m\]: the decrease in the plant's output at a constant
     /// command.
     pub xi: T,
 }
@@ -38,10 +38,10 @@ pub struct Disturbance<T> {
 /// - `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi`
 /// - `z⁺ = z + h·(s - lambda·z)`
 ///
-/// The equations hold for any sequence of steps `h`, as long as the command and z are not at a
-/// limit. The box theorem (`PeakSampled` in the crate `bowden-bound`) applies to this recursion.
-/// From bounds on g, delta_hat, `|w|` and `|xi|`, the theorem gives a box in s and z. Errors that
-/// start inside the box stay inside it.
+/// The equations hold for any sequence of time steps `h`, as long as neither the command nor z is
+/// at a limit. The box theorem (`PeakSampled` in the crate `bowden-bound`) applies to this
+/// recursion. From bounds on g, delta_hat, `|w|` and `|xi|`, the theorem computes bounds on s and z
+/// (the box). Errors that start inside the box stay inside the box.
 ///
 /// ```
 /// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};

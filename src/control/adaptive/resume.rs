@@ -14,9 +14,14 @@ impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// State whose first step on `input` gives the command `output` \[command unit\].
     ///
     /// The estimates have their initial values. The accumulated error z is chosen so that the
-    /// adaptive law and the feed-forward together give `output`. No such z exists if beta_hat is
-    /// zero, z would exceed its limit, the command limits exclude `output`, or the sample is bad.
-    /// In these cases, the command jumps, and only the slew-rate limit or the lag smooths the jump.
+    /// adaptive law and the feed-forward together give `output`. No such z exists if
+    /// - beta_hat is zero,
+    /// - the required z exceeds its limit,
+    /// - the command limits exclude `output`, or
+    /// - the sample is bad.
+    ///
+    /// In these cases, the command jumps, unless the slew-rate limit or the lag of the first-order
+    /// form limits its rate.
     ///
     /// This state has no fault. For a running state, use [`Adaptive::resume`].
     ///
@@ -79,12 +84,11 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Restarts a state so that the next step on `input` gives the command `output` \[command
     /// unit\].
     ///
-    /// This method applies [`AdaptiveState::resume_from`] to a running state. An unusable sample is
-    /// treated as a bad sample. A latched safe command stays latched, and the fault counter is
-    /// kept.
+    /// This method applies [`AdaptiveState::resume_from`] to a running state. An invalid sample
+    /// counts as a bad sample. A latched safe command stays latched, and the fault counter is kept.
     ///
-    /// The first-order form computes the rate of the reference with `input.dt`. If this `dt` is not
-    /// positive and finite, it uses the `step` of the form instead.
+    /// The first-order form needs a `dt` to compute the rate of the reference. It uses `input.dt`
+    /// or, if `input.dt` is not positive and finite, the `step` of the form.
     pub fn resume(
         &self,
         state: &mut AdaptiveState<T, N>,

@@ -8,11 +8,11 @@ use crate::error::{above_zero, must_be_finite, not_below_zero};
 use crate::{Error, Real};
 
 crate::data! {
-    /// Treatment of the error rate e' in (23). Each form is for one kind of plant.
+    /// Treatment of the error rate e' in (23). Each form suits one kind of plant.
     pub enum Form<T> {
         /// Equation (23) as published, with e' as a filtered difference of the error.
         ///
-        /// This form is for a plant with inertia, whose output cannot follow the command
+        /// Use this form for a plant with inertia, whose output cannot follow the command
         /// immediately. On a static plant with one sample of delay, this form diverges unless
         /// `g·k < 1` with g = alpha·beta_hat. Without the filter, the condition is
         /// `g·(k + 2/(lambda·h)) < 1`.
@@ -22,9 +22,9 @@ crate::data! {
         },
         /// Equation (23) solved for e': the command follows through a lag of 1/lambda.
         ///
-        /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. This form is for a plant that responds within a
-        /// sample (a stiff drive, a blocked joint), where it is equivalent to (22). On a plant with
-        /// inertia, this form diverges.
+        /// `u⁺ = u + h·lambda·(beta_hat·ubar - u)`. Use this form for a plant that responds within
+        /// one sample, such as a stiff drive or a blocked joint. On such a plant, the form is
+        /// equivalent to (22). On a plant with inertia, this form diverges.
         FirstOrder {
             /// Longest intended sampling period \[s\], positive.
             step: T,
@@ -47,8 +47,8 @@ crate::data! {
 
     /// Settings of an [`Adaptive`](super::Adaptive) law with `N` regressors.
     ///
-    /// Deserialising fails if `limits`, `longest_dt` or `fallback` is missing, because a lost table
-    /// must not remove these safeguards. For a simulation, write the values of
+    /// Deserialising fails if `limits`, `longest_dt` or `fallback` is missing, because an omitted
+    /// field must not remove a safeguard. For a simulation, write the values of
     /// [`unlimited`](Self::unlimited) explicitly.
     ///
     /// ```
@@ -76,8 +76,8 @@ crate::data! {
         pub lambda: T,
         /// epsilon \[N·m\], positive: width of the smoothed sign function.
         ///
-        /// With one sample of delay, epsilon should be at least 1/40 of the largest delta_hat;
-        /// otherwise the command may chatter.
+        /// With one sample of delay, epsilon should be at least 1/40 of the largest delta_hat.
+        /// Otherwise, the command may chatter.
         pub epsilon: T,
         /// The smoothed sign function in (23) and (25).
         #[cfg_attr(feature = "serde", serde(default))]

@@ -7,8 +7,8 @@ crate::data! {
     /// The smoothed sign function `T(x)` in (23) and (25), with `x = s/epsilon`.
     ///
     /// Both functions are odd and non-decreasing, with a slope of at most one and values within
-    /// `[-1, 1]`. The theorems use only these properties. The clamped line requires only two
-    /// comparisons, and its [`residue`](Self::residue) is 1/4 instead of 0.2785.
+    /// `[-1, 1]`. The theorems use only these properties. `Clamp` requires only two comparisons,
+    /// and has a smaller [`residue`](Self::residue): 1/4 instead of 0.2785.
     ///
     /// ```
     /// use bowden::control::SmoothSign;
@@ -40,10 +40,11 @@ impl SmoothSign {
         }
     }
 
-    /// Largest `|x|·(1 - |T(x)|)`: the contribution of the smoothed sign function to the bounds.
+    /// Largest `|x|·(1 - |T(x)|)`: the contribution of the smoothed sign function to the error
+    /// bounds.
     ///
-    /// W(1/e) = 0.27846 for `tanh` (Lemma 1 of reference 50 in Nguyen et al., 2018), and 1/4 for
-    /// the clamped line.
+    /// The value is W(1/e) = 0.27846 for `tanh` (Lemma 1 of reference 50 in Nguyen et al., 2018),
+    /// and 1/4 for `Clamp`.
     ///
     /// ```
     /// use bowden::control::SmoothSign;

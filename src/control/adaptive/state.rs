@@ -47,10 +47,10 @@ impl<T: Real, const N: usize> AdaptiveInput<T, N> {
     }
 }
 
-/// All terms of the adaptive law in one step, and the estimates that the step used.
+/// All terms of the adaptive law in one step, and the estimates used in this step.
 ///
-/// If the status is not [`Good`](crate::control::Status::Good), for example after a bad sample or a
-/// dropped regressor, `z` and the estimates are the values in the state. The other terms are zero.
+/// If the status is not [`Good`](crate::control::Status::Good), `z` and the estimates are the
+/// values in the state. The other terms are then zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -20,17 +20,17 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
     /// 2. the command, from the estimates of the previous sample;
     /// 3. `z⁺ = z + dt·e`, and the estimates from (s, ubar, x), each clamped to its bounds.
     ///
-    /// The box theorem requires that s uses z of the previous sample.
+    /// The box theorem requires that s is computed from z of the previous sample.
     ///
-    /// If a limit cuts the command, or the drive is at a limit (see [`AdaptiveState::applied`]), z
-    /// does not move further towards this limit. The estimates do not change while s requires more
-    /// than the limit allows.
+    /// If a command limit is active, or if the drive is at a limit (see
+    /// [`AdaptiveState::applied`]), z does not move further towards this limit. The estimates do
+    /// not change while s requires more than the limit allows.
     ///
     /// A bad sample leaves the state unchanged and holds the last good command; see
     /// [`control`](crate::control). A sample is also bad if `dt` is longer than
-    /// [`longest_dt`](Self::longest_dt), or if its numbers are so large that the law overflows
-    /// ([`Fault::Overflow`]). The command is within the limits **for any state**, including a
-    /// stored state and a state of another law.
+    /// [`longest_dt`](Self::longest_dt), or if its numbers are so large that the arithmetic
+    /// overflows ([`Fault::Overflow`]). The command is within the limits **for any state**,
+    /// including a stored state and a state from a law with other settings.
     #[inline]
     pub fn step(&self, state: &mut AdaptiveState<T, N>, input: &AdaptiveInput<T, N>) -> Output<T> {
         if state.held.may_step() {
@@ -51,9 +51,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         self.exception(state, &mut sample)
     }
 
-    /// The same step, with all terms for telemetry: the [`terms`](Self::terms) before the step.
+    /// The same step, which also returns all terms for telemetry. They are the
+    /// [`terms`](Self::terms) before the step.
     ///
-    /// In these terms, `limited` refers to the applied command.
+    /// In these terms, `limited` reports whether a limit has changed the command of this step.
     pub fn step_with_terms(
         &self,
         state: &mut AdaptiveState<T, N>,

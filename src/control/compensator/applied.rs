@@ -7,9 +7,9 @@ use crate::Real;
 impl<T: Real, const N: usize> Compensator<T, N> {
     /// Reports the actual input of the transmission, if it differs from the command.
     ///
-    /// Call this method between two steps, for example if the drive was off, a limit was active, or
-    /// another controller has added to the command. The hysteresis then moves from its state before
-    /// the last sample to the reported input, and the next step continues from this state.
+    /// Call this method between two steps if the drive was off, if a limit was active, or if the
+    /// output of another controller was added. The hysteresis then moves from its state before the
+    /// last sample to the reported input, and the next step continues from this state.
     ///
     /// With [`Applied::AtUpperLimit`], the actual input is unknown, and the last rise of the
     /// model's input is reversed. [`Applied::AtLowerLimit`] reverses a fall.

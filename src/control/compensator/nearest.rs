@@ -16,7 +16,7 @@ pub struct Changed<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Changed<T, N> {
-    /// Whether nothing was changed: the compensator then equals the result of
+    /// Whether the model is unchanged. The compensator then equals the result of
     /// [`Compensator::try_new`].
     pub fn is_nothing(&self) -> bool {
         self.sigma.is_none() && self.rho.is_none() && self.left_out().next().is_none()
@@ -46,10 +46,10 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     /// other terms keep their indices, so a [`Fault::Regressor`](crate::control::Fault::Regressor)
     /// still refers to the model's indices.
     ///
-    /// For this command, the identified model does not produce exactly the desired output. To
-    /// measure the error, run the feed-forward and the identified model in series, as
-    /// `examples/nearest.rs` does. A model that is fitted within the bound usually has a smaller
-    /// error than a model that is changed afterwards.
+    /// For the resulting command, the output of the identified model is only approximately the
+    /// desired output. To measure the error, run the feed-forward and the identified model in
+    /// series, as `examples/nearest.rs` does. A model that is fitted within the bound usually has a
+    /// smaller error than a model that is changed afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;

@@ -1,4 +1,4 @@
-//! The nominal plant: response to a command without friction.
+//! The nominal plant: the response to a command without friction.
 
 use crate::effect::Motion;
 use crate::error::{above_zero, finite, must_be_finite, not_below_zero};
@@ -8,7 +8,7 @@ crate::checked::stored! {
     /// The nominal plant from command to output, `P(s) = alpha/(s²/wn² + 2·zeta·s/wn + 1)`.
     ///
     /// For a motor with inertia J and damping c that acts through the cable on a stiffness K,
-    /// `wn = √(K/J)` and `zeta = c/(2·√(K·J))`. alpha is the torque of one command unit. If wn and
+    /// `wn = √(K/J)` and `zeta = c/(2·√(K·J))`. alpha is the torque per command unit. If wn and
     /// alpha are uncertain, choose low values.
     ///
     /// ```
@@ -35,7 +35,7 @@ crate::checked::stored! {
 crate::checked! {
     NominalPlant<T>;
 
-    /// A plant with alpha \[output unit/command unit\], nonzero; wn > 0 \[rad/s\]; zeta ≥ 0.
+    /// A plant with alpha ≠ 0 \[output unit/command unit\], wn > 0 \[rad/s\] and zeta ≥ 0.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `"gain"`, `"natural_frequency"` or
@@ -57,14 +57,14 @@ crate::checked! {
 impl<T: Real> NominalPlant<T> {
     /// A plant from the drive's specification.
     ///
-    /// - `gain` is the torque of one command unit at rest, nonzero.
+    /// - `gain` is the torque per command unit at rest, nonzero.
     /// - `inertia` \[kg·m²\] is positive.
     /// - `damping` \[N·m·s/rad\] is the viscous damping, not negative.
     /// - `stiffness` \[N·m/rad\] is the stiffness of cable and load in series, positive.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the parameter, or of the
-    /// derived parameter that is invalid.
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the invalid argument or of an
+    /// invalid derived parameter.
     pub fn of_mechanics(gain: T, inertia: T, damping: T, stiffness: T) -> Result<Self, Error> {
         for (value, name) in [(inertia, "inertia"), (stiffness, "stiffness")] {
             if finite(value, name)? <= T::ZERO {
@@ -98,10 +98,11 @@ impl<T: Real> NominalPlant<T> {
     }
 
     /// The command for which the output of the nominal plant follows the desired motion. The
-    /// position is in \[output unit\]; the velocity and the acceleration are its derivatives.
+    /// position is in \[output unit\]; the velocity and the acceleration are its time derivatives.
     ///
-    /// Pass the reference ahead of time, by the latency of the command. If the motion is not
-    /// finite, the result is not finite either, and a controller rejects it.
+    /// To compensate for the latency of the command, pass the motion that is desired one latency
+    /// later. If the motion is not finite, the result is not finite either, and a controller
+    /// rejects it.
     #[inline]
     #[must_use]
     pub fn feed_forward(&self, wanted: &Motion<T>) -> T {

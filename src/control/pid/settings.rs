@@ -64,15 +64,15 @@ crate::data! {
     pub enum AntiWindup<T> {
         /// No anti-windup: the integral winds up.
         None,
-        /// The integral term stays within the range of the command. This range is widened to
-        /// include zero and the value for which the command equals the limit.
+        /// The integral term is clamped to the range of the command. If necessary, the range is
+        /// widened to include zero and the value for which the command equals its limit.
         Clamp,
         /// The integral is corrected by the part of the command that the limits cut off. With `k_i`
         /// = 0 there is no correction.
         ///
-        /// At the next sample, the integral moves by `dt/(T_t + dt)` times this part towards the
-        /// limit. While the other terms are constant, the part decays by the factor
-        /// `T_t/(T_t + dt)` per sample and never overshoots.
+        /// At the next sample, the integral moves by `dt/(T_t + dt)` times this part, so that the
+        /// sum of the terms approaches the limit. While the other terms are constant, the part that
+        /// is cut off decays by the factor `T_t/(T_t + dt)` per sample, without overshoot.
         BackCalculation {
             /// T_t \[s\], positive; `k_p/k_i` is a usual choice.
             tracking_time: T,
@@ -80,14 +80,14 @@ crate::data! {
         /// The integral stops at the value for which the command equals the limit of its range.
         ///
         /// A change away from this limit is not restricted, so the integral unwinds. The part that
-        /// the slew-rate limit cuts off is back-calculated with T_t = `k_p/k_i`.
+        /// the slew-rate limit cuts off is treated as in back-calculation, with T_t = `k_p/k_i`.
         Conditional,
     }
 
     /// Settings of a [`Pid`](super::Pid), with public fields; [`Pid::try_new`] checks them.
     ///
-    /// Deserialising fails if `limits`, `longest_dt` or `fallback` is missing, because a lost table
-    /// must not remove these safeguards. For a simulation, write the values of
+    /// Deserialising fails if `limits`, `longest_dt` or `fallback` is missing, because an omitted
+    /// field must not remove a safeguard. For a simulation, write the values of
     /// [`unlimited`](Self::unlimited) explicitly.
     ///
     /// ```
@@ -136,7 +136,8 @@ crate::data! {
         /// Largest magnitude of the integral term \[command unit\], positive.
         #[cfg_attr(feature = "serde", serde(default = "none"))]
         pub integral_limit: Option<T>,
-        /// The integral is frozen while `|e|` is at most this value \[output unit\], not negative.
+        /// Deadband \[output unit\], not negative: the integral is frozen while `|e|` is at most
+        /// this value.
         ///
         /// With static friction, the integral winds up until the output jumps past the reference
         /// (hunting). A deadband wider than this jump prevents hunting.
@@ -144,8 +145,8 @@ crate::data! {
         pub deadband: T,
         /// Period of an output that wraps \[output unit\], positive, such as 360°.
         ///
-        /// The error and the changes of the output are then at most half a period, in the shorter
-        /// direction. A period requires b = 1, and a c of 0 or 1.
+        /// The error and the changes in the output are then measured in the shorter direction, so
+        /// they are at most half a period. A period requires b = 1, and c = 0 or 1.
         #[cfg_attr(feature = "serde", serde(default = "none"))]
         pub period: Option<T>,
         /// Range and slew-rate limit of the command.
@@ -180,7 +181,7 @@ macro_rules! share {
 }
 
 impl<T: Real> PidSettings<T> {
-    /// A PI for a machine, equation (15), with limits and a fallback.
+    /// Settings of a PI for hardware, equation (15), with command limits and a fallback.
     ///
     /// The set-point weight b is 1, and the anti-windup is conditional. If you set `k_d`, the
     /// derivative acts on the measurement. `longest_dt` is in \[s\].

@@ -65,7 +65,7 @@ crate::data! {
         pub feed_forward: T,
         /// Sum of all terms except `error`, before range and slew-rate limit \[command unit\].
         pub unlimited: T,
-        /// Whether the applied command differs from `unlimited`. Causes are the range, the
+        /// Whether the applied command differs from `unlimited`. Possible causes are the range, the
         /// slew-rate limit, the safe command and [`Pid::applied`](super::Pid::applied).
         pub saturated: bool,
     }

@@ -102,18 +102,18 @@ impl<T: Real> PidState<T> {
         }
     }
 
-    /// Restarts with an integral for which the command continues from `output` \[command unit\].
+    /// Restarts so that the command continues from `output` \[command unit\].
     ///
-    /// At the sample `at`, the terms including the feed-forward add up to `output`, clamped to the
-    /// limits. Use this method after manual control or another controller. The derivative starts at
-    /// zero. The next step at the same sample adds only one step of the integral. `at.dt` is
-    /// ignored.
+    /// The integral is set so that, at the sample `at`, all terms including the feed-forward add up
+    /// to `output`, clamped to the limits. Use this method after manual control or another
+    /// controller. The derivative starts at zero. The next step at the same sample adds only one
+    /// increment of the integral. `at.dt` is ignored.
     ///
-    /// A number that is not finite, or an overflow, is treated as a bad sample and returns a fault.
-    /// A latched safe command stays latched, and the fault counter is kept.
+    /// If a number is not finite or an overflow occurs, the sample is bad, and the method returns
+    /// the fault. A latched safe command stays latched, and the fault counter is kept.
     ///
-    /// The integral is the difference between `output` and the other terms at `at`. With `k_i` = 0,
-    /// the integral then returns to zero; see [`PidSettings::k_i`](super::PidSettings::k_i).
+    /// With `k_i` = 0, the integral then returns to zero; see
+    /// [`PidSettings::k_i`](super::PidSettings::k_i).
     ///
     /// ```
     /// use bowden::control::{Pid, PidInput, PidState, Status};

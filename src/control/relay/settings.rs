@@ -32,13 +32,14 @@ crate::data! {
         pub reference: T,
         /// Mean of the two levels of the command \[command unit\]; finite.
         ///
-        /// The command that holds the output at the reference gives equal half-periods.
+        /// Choose the command that holds the output at the reference, so that the half-periods are
+        /// equal.
         pub centre: T,
         /// d, the distance from the centre to each level \[command unit\]: finite, nonzero, and
         /// with the sign of the plant's gain. Both levels must lie within `limits`.
         pub amplitude: T,
-        /// Hysteresis eps \[output unit\], not negative. Choose at least the peak of the noise;
-        /// otherwise the relay chatters.
+        /// Hysteresis eps \[output unit\], not negative. Choose at least the peak value of the
+        /// noise. Otherwise, the relay chatters.
         pub hysteresis: T,
         /// Largest deviation of the output from the reference \[output unit\], greater than
         /// `hysteresis`.
@@ -50,19 +51,19 @@ crate::data! {
         /// Largest relative deviation of the period and amplitude of a cycle from the mean of
         /// earlier cycles, between 0 and 1.
         ///
-        /// A cycle with a larger deviation restarts the average. A period must have at least
-        /// `2/agreement` samples, because the period of a faster oscillation cannot be measured to
-        /// this relative accuracy.
+        /// A cycle with a larger deviation restarts the average. A period must contain at least
+        /// `2/agreement` samples. Otherwise, the period cannot be measured with this relative
+        /// accuracy.
         pub agreement: T,
         /// Maximum duration of the experiment, at least `longest_dt` \[s\].
         ///
-        /// Rounding may end the experiment early, after n samples by up to about n/2³² of this
-        /// duration.
+        /// Because of rounding errors, an experiment of n samples may end early, by up to about
+        /// n/2³² of this duration.
         pub longest_time: T,
         /// Longest `dt` of a good sample \[s\], positive; for example, five sampling periods.
         pub longest_dt: T,
-        /// Range of the command. A slew-rate limit is an error, because k_u assumes a step of the
-        /// command.
+        /// Range of the command. A slew-rate limit is an error, because the formula for k_u assumes
+        /// steps in the command.
         pub limits: Limits<T>,
         /// Fallback after a failure: a safe command within `limits`.
         ///

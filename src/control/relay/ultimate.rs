@@ -32,17 +32,21 @@ crate::data! {
     pub enum PiRule {
         /// k_p = k_u/3.2, T_i = 2.2·T_u: the conservative rule, and the default.
         ///
-        /// For lags, with and without delay, the gain margin is above 2.5 and the phase margin is
-        /// above 45°. This includes the error of the describing function, which may give a k_u that
-        /// is 27 % too high. B. Tyreus, W. Luyben, "Tuning PI controllers for integrator/dead time
+        /// On the tested plants (lags with and without a delay), the gain margin is above 2.5 and
+        /// the phase margin is above 45°. These margins include the error of the describing
+        /// function, which may overestimate k_u by 27 %.
+        ///
+        /// Source: B. Tyreus, W. Luyben, "Tuning PI controllers for integrator/dead time
         /// processes", *Ind. Eng. Chem. Res.* 31, 1992.
         #[default]
         TyreusLuyben,
         /// k_p = 0.45·k_u, T_i = T_u/1.2: fast, with an overshoot after a reference step.
         ///
-        /// For the same plants, the gain margin is only above 1.5 and the phase margin above 15°.
+        /// On the same plants, the gain margin may be as low as 1.5 and the phase margin as low as
+        /// 15°.
         ///
-        /// J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans. ASME* 64, 1942.
+        /// Source: J. Ziegler, N. Nichols, "Optimum settings for automatic controllers", *Trans.
+        /// ASME* 64, 1942.
         ZieglerNichols,
     }
 
@@ -56,7 +60,7 @@ crate::data! {
 }
 
 impl<T: Real> Ultimate<T> {
-    /// The PI gains according to a tuning rule.
+    /// The PI gains that a tuning rule gives.
     #[must_use]
     pub fn pi(&self, rule: PiRule) -> PiGains<T> {
         let (k_p, t_i) = match rule {
