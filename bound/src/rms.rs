@@ -5,7 +5,7 @@ use super::{Certificate, Interval, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
-/// Halvings of the search for the target: more than an f64 can distinguish.
+/// Number of bisections in the search for the target: more than an `f64` can distinguish.
 const NARROWINGS: u32 = 90;
 
 /// Root mean square of the error over a long time.
