@@ -4,8 +4,8 @@ use super::alone::Loop;
 use crate::plants::Plants;
 use crate::span::{Plane, Span};
 
-/// Sum over all images of `1/|x + pi·k|³` for x from 0 to pi/2: `(2/pi)³` of the nearest, 0.053 of all
-/// others.
+/// Sum over all images of `1/|x + pi·k|³` for x from 0 to pi/2: `(2/pi)³` for the nearest image and
+/// 0.053 for all others.
 const IMAGES: f64 = 0.32;
 
 /// The numbers that all regions share.

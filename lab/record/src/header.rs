@@ -96,8 +96,8 @@ impl Header {
         Ok(Self::with(0, columns))
     }
 
-    /// The columns of a line. Beside a name that ends in `_out` the ending `_in` is that of an input
-    /// and no inch.
+    /// The columns of a line. Next to a name that ends in `_out` the ending `_in` is that of an
+    /// input and no inch.
     fn with(line: usize, mut columns: Vec<Named>) -> Self {
         let ends = |column: &Named, ending: &str| column.name.to_lowercase().ends_with(ending);
         if columns.iter().any(|column| ends(column, "_out")) {

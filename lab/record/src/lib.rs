@@ -3,7 +3,7 @@
 //!
 //! A record consists of a time axis, the transmission's input and output, and optional channels.
 //! Nothing is repaired silently: [`Record::notes`] lists every change by the reader (a converted
-//! unit, an ignored column), and an unreadable record is refused with one line that names file,
+//! unit, an ignored column), and an unreadable record is rejected with one line that names file,
 //! line and column.
 //!
 //! ```
@@ -140,7 +140,7 @@ pub struct Options {
     /// Sheet of an Excel workbook; if `None`, the first one with a table.
     pub sheet: Option<String>,
     /// Omit rows with an empty cell, a NaN or the time stamp of the previous row, instead of
-    /// refusing the record.
+    /// rejecting the record.
     pub drop_bad: bool,
 }
 

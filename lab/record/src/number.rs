@@ -57,7 +57,7 @@ impl Notation {
         Ok(value)
     }
 
-    /// Refuses commas that may separate thousands; `name` is that of a column.
+    /// Rejects commas that may separate thousands; `name` is that of a column.
     pub(super) fn check<'n>(&self, name: impl Fn(usize) -> &'n str) -> Result<(), RecordError> {
         match self.is_comma() {
             true => self.thousands.borrow().check(name),

@@ -1,7 +1,7 @@
 //! The contents of a file before every column has a role: names, units, and values as they are.
 //!
 //! A view shows these contents to a user who then chooses the columns. A cell without a number is
-//! NaN and not refused.
+//! NaN and not rejected.
 
 use super::encoding::Decoded;
 use super::error::RecordError;

@@ -52,7 +52,7 @@ pub(super) fn steps(signal: &[f64]) -> impl Iterator<Item = f64> + '_ {
     signal.windows(2).map(|pair| pair[1] - pair[0])
 }
 
-/// The stretches of equal values.
+/// The intervals of equal values.
 pub(super) fn runs(signal: &[f64]) -> impl Iterator<Item = Range<usize>> + '_ {
     let mut end = 0;
     signal.chunk_by(|a, b| a == b).map(move |run| {

@@ -109,7 +109,7 @@ impl Columns {
     }
 }
 
-/// Refuses options for the names of a text, which the columns of such a file have, unless `--names`
+/// Rejects options for the names of a text, which the columns of such a file have, unless `--names`
 /// gave them.
 fn without_lines(is_given: bool, options: &Options) -> Result<(), RecordError> {
     if let Some(line) = options.header_line {

@@ -69,7 +69,7 @@ impl Source<'_> {
         }
     }
 
-    /// Refuses numbers that may be read in two ways.
+    /// Rejects numbers that may be read in two ways.
     pub(super) fn check(&self, header: &Header) -> Result<(), RecordError> {
         match self {
             Self::Text(rows) => rows.notation().check(|index| &header.columns[index].name),

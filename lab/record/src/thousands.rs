@@ -2,7 +2,7 @@
 //!
 //! A program that writes decimals writes equally many in every cell (`900,000`), or as few as the
 //! number needs (`1,2`). A program that groups digits writes `900` and `1,197`. A column is
-//! ambiguous, and therefore refused, if every comma is between one to three digits and three
+//! ambiguous, and therefore rejected, if every comma is between one to three digits and three
 //! digits, and if the column also has whole numbers of at most three digits.
 
 use super::error::{shown, RecordError, SHOWN};
@@ -48,7 +48,7 @@ impl Thousands {
         }
     }
 
-    /// Refuses the first cell that may be two numbers; `name` is that of a column.
+    /// Rejects the first cell that may be two numbers; `name` is that of a column.
     pub(super) fn check<'n>(&self, name: impl Fn(usize) -> &'n str) -> Result<(), RecordError> {
         let open = self.columns.iter().enumerate().filter_map(|(index, own)| {
             let pair = own.grouped.as_ref().zip(own.whole.as_ref());

@@ -26,7 +26,7 @@ pub struct CheckFacts {
     pub rmse_gain_offset: f64,
     /// Rms error up to which the model holds; `None` if nothing determines it.
     pub allowed: Option<f64>,
-    /// The model's own held-out error, as a share of the standard deviation.
+    /// The model's own held-out error, as a fraction of the standard deviation.
     pub reference: Option<f64>,
     /// The same in the output's unit, if the model file states it.
     pub reference_rmse: Option<f64>,
@@ -61,7 +61,7 @@ pub struct DependsOn {
     pub words: String,
     /// The channel that it is computed from.
     pub channel: String,
-    /// Share of the squared error that a free curve over it removes.
+    /// Share of the squared error that a free-form curve over it removes.
     pub share: f64,
     /// Exact sign-flip p-value of that curve; `None` if it could not be tested.
     pub p: Option<f64>,
@@ -109,7 +109,7 @@ impl ModelOfFile {
         Ok(Self { given, mode })
     }
 
-    /// Refuses a model that does not describe its own records.
+    /// Rejects a model that does not describe its own records.
     ///
     /// # Errors
     /// A message if its verdict is `no-input-dependence`.

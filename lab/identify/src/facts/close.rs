@@ -95,7 +95,7 @@ impl Handed {
     /// Samples and the expected outputs of the model, as CSV.
     ///
     /// # Errors
-    /// A message with the part of the model that the core refuses.
+    /// A message with the part of the model that the core rejects.
     pub fn vector(&self) -> Result<&str, String> {
         self.vector.as_deref().map_err(Clone::clone)
     }

@@ -29,7 +29,7 @@ pub struct Facts {
     pub label: String,
     /// The record as it was read.
     pub record: RecordFacts,
-    /// Independent stretches of the fit segment, at most [`BLOCKS`].
+    /// Independent intervals of the fit segment, at most [`BLOCKS`].
     pub blocks: usize,
     /// The baseline model.
     pub declared: ModelFacts,
@@ -131,7 +131,7 @@ pub struct UnknownFacts {
     pub kept: &'static str,
 }
 
-/// Independent stretches of the fit segment, at most sixteen.
+/// Independent intervals of the fit segment, at most sixteen.
 fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
     if ledger.regime == Regime::Blocks {
         return BLOCKS;

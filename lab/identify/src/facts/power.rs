@@ -19,7 +19,7 @@ pub struct PowerFacts {
     pub model: Vec<String>,
     /// Trials of each amplitude.
     pub trials: usize,
-    /// Trials without a planted effect in which the search found an effect.
+    /// Trials without an injected effect in which the search found an effect.
     pub named_without: usize,
     /// Sorted by family, from the simplest on, then by name and channel.
     pub rows: Vec<PowerRow>,
@@ -36,7 +36,7 @@ pub struct PowerRow {
     pub name: String,
     /// The channel that it reads.
     pub channel: String,
-    /// The planted shapes.
+    /// The injected shapes.
     pub shapes: Vec<ShapeFacts>,
     /// Unit of its gain, if the record states the units of its columns.
     pub gain_unit: Option<String>,
@@ -44,7 +44,7 @@ pub struct PowerRow {
     pub answer: Answer,
 }
 
-/// A planted shape.
+/// An injected shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeFacts {
     /// Its name in the effect's formula.
@@ -55,7 +55,7 @@ pub struct ShapeFacts {
     pub unit: Option<String>,
 }
 
-/// Plants every requested effect and counts how often a search finds it.
+/// Injects every requested effect and counts how often a search finds it.
 ///
 /// `effects`: names of effects or families; all if it is empty.
 ///

@@ -28,7 +28,7 @@ pub struct RecordFacts {
     pub seconds: f64,
     /// Cut-off of the filter \[Hz\].
     pub cutoff: f64,
-    /// The sensor's noise after the filter, rms in the output's unit; 0 if unknown.
+    /// Sensor noise after the filter, rms in the output's unit; 0 if unknown.
     pub noise_floor: f64,
     /// The same for the held-out data.
     pub held_out_floor: f64,

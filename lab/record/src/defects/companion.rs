@@ -48,7 +48,7 @@ impl Companion {
         usual
     }
 
-    /// Its means over the fifths of a stretch, and their noise.
+    /// Its means over the fifths of an interval, and their noise.
     pub(super) fn parts(&self, stretch: &Range<usize>) -> ([f64; FEW], f64) {
         let border = |part: usize| stretch.start + part * stretch.len() / FEW;
         let mean = |part: usize| self.mean(border(part), border(part + 1) - border(part));
@@ -56,8 +56,8 @@ impl Companion {
         (std::array::from_fn(mean), noise)
     }
 
-    /// Whether it moves in the middle of the stretch, at this share of its usual speed. The first and
-    /// the last fifth are left out: the response to an earlier command may still settle there.
+    /// Whether it moves in the middle of the interval, at this share of its usual speed. The first
+    /// and the last fifth are left out: the response to an earlier command may still settle there.
     pub(super) fn moves(&self, stretch: &Range<usize>, share: f64) -> bool {
         let (means, noise) = self.parts(stretch);
         let [first, second] = [means[2] - means[1], means[3] - means[2]].map(f64::abs);
@@ -66,7 +66,7 @@ impl Companion {
         first.min(second) > 0.0 && moved > CLEAR * noise && 0.5 * moved > share * usual
     }
 
-    /// Its travel in the first and in the last third of the stretch.
+    /// Its travel in the first and in the last third of the interval.
     pub(super) fn ends(&self, stretch: &Range<usize>) -> (f64, f64) {
         let third = stretch.len() / 3;
         let half = third / 2;

@@ -66,7 +66,7 @@ fn rows_predict(time: &[f64], signal: &[f64], step: f64) -> bool {
     by_stamps > BETTER * by_rows
 }
 
-/// RMS error of the signal due to the shifts, as a share of its spread.
+/// RMS error of the signal due to the shifts, as a fraction of its spread.
 fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
     let (mut sum, mut known) = (0.0, 0.0_f64);
     for (i, shift) in shifts.iter().enumerate().skip(2) {
@@ -78,7 +78,7 @@ fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
     (sum / known.max(1.0)).sqrt() / spread(signal)
 }
 
-/// The stretches in which the stamps are wrong by so many steps.
+/// The intervals in which the stamps are wrong by so many steps.
 fn stretches(shifts: &[Option<f64>], least: f64) -> Vec<Range<usize>> {
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (i, shift) in shifts.iter().enumerate() {

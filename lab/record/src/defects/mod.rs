@@ -66,17 +66,17 @@ pub struct Defect {
     pub kind: DefectKind,
     /// The column: its name in the file for time, input and output, otherwise the channel's name.
     pub channel: String,
-    /// First and last line of each stretch, counted from 1.
+    /// First and last line of each interval, counted from 1.
     pub ranges: Vec<[usize; 2]>,
     /// One sentence.
     pub message: String,
     /// Whether it invalidates conclusions from this column.
     #[serde(skip)]
     pub grave: bool,
-    /// Whether the stretches contain no measurement and are excluded from the fit.
+    /// Whether the intervals contain no measurement and are excluded from the fit.
     #[serde(skip)]
     pub left_out: bool,
-    /// The stretches as samples of the record.
+    /// The intervals as samples of the record.
     #[serde(skip)]
     pub samples: Vec<Range<usize>>,
 }
@@ -183,7 +183,7 @@ impl Record {
     }
 }
 
-/// A signal with a line through some stretches.
+/// A signal with a line through some intervals.
 pub fn bridged<'a, 'b>(
     signal: &'a [f64],
     stretches: impl IntoIterator<Item = &'b Range<usize>>,

@@ -2,7 +2,7 @@
 //!
 //! A run of bit-identical values alone proves nothing: references rest, encoders wait for the next
 //! count, dry friction without noise is flat. The sensor is stuck if the other signals move during
-//! the run, and if either the sensor's noise disappears with it or the signal jumps at its end,
+//! the run, and if either the sensor noise disappears with it or the signal jumps at its end,
 //! further than it ever moves in one sample. If most of the record consists of such runs, the
 //! signal is flat by nature.
 
