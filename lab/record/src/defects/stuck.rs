@@ -13,8 +13,8 @@ use crate::scale::{
 };
 use std::ops::Range;
 
-/// Share of their usual speed at which others have to move where only a leap tells: a reference may
-/// well rest while its rig settles.
+/// Fraction of their usual speed with which the other signals must move if a jump is the only sign.
+/// A reference may rest while its rig settles.
 const MOVING: f64 = 0.3;
 
 pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Found> {
@@ -53,7 +53,7 @@ struct Judge<'a> {
     usual: Option<f64>,
     /// Longest run that noise could cause; `None` if the signal has no noise.
     by_noise: Option<f64>,
-    /// Longest run that is not suspect.
+    /// Longest run that is not suspicious.
     innocent: usize,
     low: f64,
     high: f64,
