@@ -1,10 +1,10 @@
 //! A sensor that is constant while the measured quantity moves.
 //!
-//! A run of bit-identical values alone proves nothing: references rest, encoders wait for the next
-//! count, dry friction without noise is flat. The sensor is stuck if the other signals move during
-//! the run, and if either the sensor noise disappears with it or the signal jumps at its end,
-//! further than it ever moves in one sample. If most of the record consists of such runs, the
-//! signal is flat by nature.
+//! A run of bit-identical values by itself proves nothing. References rest, encoders wait for the
+//! next count, and dry friction without noise is flat. The sensor is stuck if the other signals
+//! move during the run, and if one of two signs is present: the sensor noise disappears during the
+//! run, or the signal jumps at the end of the run further than it ever moves in one sample. If most
+//! of the record consists of such runs, the signal is flat by nature.
 
 use super::companion::Companion;
 use super::{share, Found};
