@@ -113,7 +113,7 @@ pub(super) fn slice(bytes: &[u8], at: usize, length: usize) -> Result<&[u8], Dam
 mod tests {
     use super::*;
 
-    /// An archive of one stored file, whose entry in the directory has its numbers in ZIP64's field.
+    /// An archive of one stored file whose directory entry has its numbers in the ZIP64 field.
     fn long(text: &[u8]) -> Vec<u8> {
         let mut crc = Crc::new();
         crc.update(text);
