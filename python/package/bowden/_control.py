@@ -365,7 +365,7 @@ class Controller(Changing):
         self._native.acknowledge()
 
     def reset(self) -> None:
-        """Resets the state. The applied command, the fault counter and a latched safe command stay."""
+        """Resets all except the applied command, the fault counter and a latched safe command."""
         self._native.reset()
 
     def restore(self) -> None:
@@ -416,8 +416,8 @@ class Controller(Changing):
     def learned(self) -> Any:
         """The learned value of each cell [command unit], (cells,) or (lanes, cells).
 
-        ``None`` without learning. Pass these values to ``IterativeLearning(…, learned=…)`` to continue
-        learning.
+        ``None`` without learning. Pass these values to ``IterativeLearning(…, learned=…)`` to
+        continue learning.
         """
         all = self._native.learned()
         return all if all is None else np.asarray(all[0] if self._alone else all)
