@@ -162,9 +162,9 @@ pub(super) fn proportional_and_integral<T: Real>(
 }
 
 impl Loop {
-    /// A frequency r for which the first term of F is the larger term at all `|s| >= r` in the
-    /// right half-plane, for all plants on the path from the first plant. Both terms are divided by
-    /// `|s|⁵`. Then one term decreases and the other increases with `1/|s|`.
+    /// A frequency r above which the first term of F is the larger term. This holds at all `|s| >=
+    /// r` in the right half-plane, for all plants on the path from the first plant. Both terms are
+    /// divided by `|s|⁵`. Then one term decreases and the other increases with `1/|s|`.
     fn highest(&self, first: &Plants, all: &Plants) -> Option<f64> {
         let hull = first.hull(all);
         let (curvature, rate) = hull.denominator();

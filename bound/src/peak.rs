@@ -56,7 +56,7 @@ impl<T: Real> PeakContinuous<T> {
     /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption, or if no bound exists because the
     /// bounds on the estimates are too wide or k is too small.
     pub fn try_new<const N: usize>(

@@ -64,7 +64,7 @@ impl<T: Real> Rms<T> {
     /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

@@ -73,7 +73,7 @@ impl<T: Real> PeakSampled<T> {
     /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption, or if no bound exists because the
     /// bounds on the estimates are too wide.
     pub fn try_new<const N: usize>(

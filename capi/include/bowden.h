@@ -53,10 +53,10 @@
 // Maximum number of regressors in an adaptive law.
 #define BOWDEN_REGRESSORS 4
 
-// Size in 64-bit words.
+// Size of bowden_adaptive_f32 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F32_WORDS 56
 
-// Size in 64-bit words.
+// Size of bowden_adaptive_f64 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F64_WORDS 104
 
 // Maximum number of ranges of a compensator.
@@ -65,55 +65,55 @@
 // Value of `source` in a range: the input of the transmission.
 #define BOWDEN_SOURCE_INPUT 4294967295
 
-// Size in 64-bit words.
+// Size of bowden_compensator_f32 in 64-bit words.
 #define BOWDEN_COMPENSATOR_F32_WORDS 184
 
-// Size in 64-bit words.
+// Size of bowden_compensator_f64 in 64-bit words.
 #define BOWDEN_COMPENSATOR_F64_WORDS 360
 
-// Size in 64-bit words.
+// Size of bowden_edge_velocity_f32 in 64-bit words.
 #define BOWDEN_EDGE_VELOCITY_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_edge_velocity_f64 in 64-bit words.
 #define BOWDEN_EDGE_VELOCITY_F64_WORDS 13
 
-// Size in 64-bit words.
+// Size of bowden_low_pass_f32 in 64-bit words.
 #define BOWDEN_LOW_PASS_F32_WORDS 4
 
-// Size in 64-bit words.
+// Size of bowden_low_pass_f64 in 64-bit words.
 #define BOWDEN_LOW_PASS_F64_WORDS 6
 
-// Size in 64-bit words.
+// Size of bowden_biquad_f32 in 64-bit words.
 #define BOWDEN_BIQUAD_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_biquad_f64 in 64-bit words.
 #define BOWDEN_BIQUAD_F64_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_hysteresis_f32 in 64-bit words.
 #define BOWDEN_HYSTERESIS_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_hysteresis_f64 in 64-bit words.
 #define BOWDEN_HYSTERESIS_F64_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_cable_f32 in 64-bit words.
 #define BOWDEN_CABLE_F32_WORDS 10
 
-// Size in 64-bit words.
+// Size of bowden_cable_f64 in 64-bit words.
 #define BOWDEN_CABLE_F64_WORDS 20
 
-// Size in 64-bit words.
+// Size of bowden_inverse_f32 in 64-bit words.
 #define BOWDEN_INVERSE_F32_WORDS 10
 
-// Size in 64-bit words.
+// Size of bowden_inverse_f64 in 64-bit words.
 #define BOWDEN_INVERSE_F64_WORDS 20
 
 // Maximum number of cells in a cycle.
 #define BOWDEN_CELLS 65535
 
-// Size in 64-bit words.
+// Size of bowden_iterative_learning_f32 in 64-bit words.
 #define BOWDEN_ITERATIVE_LEARNING_F32_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_iterative_learning_f64 in 64-bit words.
 #define BOWDEN_ITERATIVE_LEARNING_F64_WORDS 18
 
 // Maximum number of terms in a model.
@@ -125,50 +125,50 @@
 // Maximum size of a model, in bytes. No model with BOWDEN_TERMS terms exceeds this limit.
 #define BOWDEN_MODEL_BYTES 2048
 
-// Size in 64-bit words.
+// Size of bowden_model_f32 in 64-bit words.
 #define BOWDEN_MODEL_F32_WORDS 112
 
-// Size in 64-bit words.
+// Size of bowden_model_f64 in 64-bit words.
 #define BOWDEN_MODEL_F64_WORDS 216
 
-// Size in 64-bit words.
+// Size of bowden_observer_f32 in 64-bit words.
 #define BOWDEN_OBSERVER_F32_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_observer_f64 in 64-bit words.
 #define BOWDEN_OBSERVER_F64_WORDS 25
 
 // Value of `after` in a fallback that holds the last good command indefinitely. Use it in a
 // simulation, not on a machine.
 #define BOWDEN_HOLD_FOR_EVER 4294967295
 
-// Size in 64-bit words.
+// Size of bowden_pid_f32 in 64-bit words.
 #define BOWDEN_PID_F32_WORDS 24
 
-// Size in 64-bit words.
+// Size of bowden_pid_f64 in 64-bit words.
 #define BOWDEN_PID_F64_WORDS 40
 
-// Size in 64-bit words.
+// Size of bowden_plausible_f32 in 64-bit words.
 #define BOWDEN_PLAUSIBLE_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_plausible_f64 in 64-bit words.
 #define BOWDEN_PLAUSIBLE_F64_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_play_f32 in 64-bit words.
 #define BOWDEN_PLAY_F32_WORDS 4
 
-// Size in 64-bit words.
+// Size of bowden_play_f64 in 64-bit words.
 #define BOWDEN_PLAY_F64_WORDS 6
 
-// Size in 64-bit words.
+// Size of bowden_rates_f32 in 64-bit words.
 #define BOWDEN_RATES_F32_WORDS 10
 
-// Size in 64-bit words.
+// Size of bowden_rates_f64 in 64-bit words.
 #define BOWDEN_RATES_F64_WORDS 16
 
-// Size in 64-bit words.
+// Size of bowden_relay_f32 in 64-bit words.
 #define BOWDEN_RELAY_F32_WORDS 26
 
-// Size in 64-bit words.
+// Size of bowden_relay_f64 in 64-bit words.
 #define BOWDEN_RELAY_F64_WORDS 44
 
 // Result of a function. Zero: success. Positive: the output was written, but the sample was bad or
@@ -379,8 +379,8 @@ enum bowden_anti_windup
     BOWDEN_ANTI_WINDUP_CONDITIONAL = 0,
     // No anti-windup: the integral winds up.
     BOWDEN_ANTI_WINDUP_NONE = 1,
-    // The integral term stays within the command range. This range is widened to include zero and
-    // the value at which the command reaches its limit.
+    // The integral term stays within the command range. For this purpose, the range is widened to
+    // include zero and the integral term at which the command reaches its limit.
     BOWDEN_ANTI_WINDUP_CLAMP = 2,
     // The part of the command that the limits cut off is fed back to the integral with the time
     // constant `tracking_time`.
@@ -394,7 +394,7 @@ typedef uint32_t bowden_anti_windup;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Input and output quantities.
+// Input and output quantities of a transmission.
 enum bowden_mode
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -540,7 +540,7 @@ typedef struct bowden_adaptive_f32 {
     uint64_t opaque[BOWDEN_ADAPTIVE_F32_WORDS];
 } bowden_adaptive_f32;
 
-// Settings of one estimate in (24)-(26).
+// Settings of one estimate of the adaptive law, (24)-(26).
 //
 // The macro of the adaptive law also initialises its estimates. The macro of this
 // struct fixes the estimate at 0, with zero gain and no leakage.
@@ -743,7 +743,7 @@ typedef struct bowden_adaptive_f64 {
     uint64_t opaque[BOWDEN_ADAPTIVE_F64_WORDS];
 } bowden_adaptive_f64;
 
-// Settings of one estimate in (24)-(26).
+// Settings of one estimate of the adaptive law, (24)-(26).
 //
 // The macro of the adaptive law also initialises its estimates. The macro of this
 // struct fixes the estimate at 0, with zero gain and no leakage.
@@ -1425,8 +1425,8 @@ typedef struct bowden_iterative_learning_f32 {
 } bowden_iterative_learning_f32;
 
 // Settings of iterative learning control. A cycle is divided into cells of equal width
-// in phase. e is the mean of reference - measured over a cell. The weights w(k) are
-// triangular, and their sum is 1:
+// in phase. e is the mean of reference - measured over a cell, and w(k) are triangular
+// weights with a sum of 1. In each cycle, the learned values become
 //
 //     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
 //     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
@@ -1479,8 +1479,8 @@ typedef struct bowden_iterative_learning_f64 {
 } bowden_iterative_learning_f64;
 
 // Settings of iterative learning control. A cycle is divided into cells of equal width
-// in phase. e is the mean of reference - measured over a cell. The weights w(k) are
-// triangular, and their sum is 1:
+// in phase. e is the mean of reference - measured over a cell, and w(k) are triangular
+// weights with a sum of 1. In each cycle, the learned values become
 //
 //     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
 //     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
@@ -2440,7 +2440,7 @@ bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
 bowden_result bowden_adaptive_is_latched_f64(const struct bowden_adaptive_f64 *law,
                                              uint32_t *latched);
 
-// Inverts a loaded model and initialises the state at zero:
+// Inverts a loaded model and initialises the state to zero. Each step then computes
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
@@ -2497,7 +2497,7 @@ bowden_result bowden_compensator_at_limit_f32(struct bowden_compensator_f32 *com
 // Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
 bowden_result bowden_compensator_reset_f32(struct bowden_compensator_f32 *compensator, float eta);
 
-// Inverts a loaded model and initialises the state at zero:
+// Inverts a loaded model and initialises the state to zero. Each step then computes
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
@@ -2777,9 +2777,9 @@ bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learn
 // Processes one sample. Call this function before the step of the controller. `phase`
 // is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
 //
-// Set `learns` to 0 if the command was limited, the safe command is applied, or the
-// task is different. If more than half of the samples in a cell have `learns` = 0, the
-// errors of the next `lead` cells are ignored too.
+// Set `learns` to 0 while the command is limited, while the safe command is applied,
+// or during a different task. If more than half of the samples in a cell have `learns`
+// = 0, the errors of the next `lead` cells are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward
 // (BOWDEN_RESULT_HELD). The feedback controller does not detect this fault.
@@ -2826,9 +2826,9 @@ bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learn
 // Processes one sample. Call this function before the step of the controller. `phase`
 // is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
 //
-// Set `learns` to 0 if the command was limited, the safe command is applied, or the
-// task is different. If more than half of the samples in a cell have `learns` = 0, the
-// errors of the next `lead` cells are ignored too.
+// Set `learns` to 0 while the command is limited, while the safe command is applied,
+// or during a different task. If more than half of the samples in a cell have `learns`
+// = 0, the errors of the next `lead` cells are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward
 // (BOWDEN_RESULT_HELD). The feedback controller does not detect this fault.
@@ -2855,8 +2855,8 @@ bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learnin
 // `about` may be null. Errors:
 //
 // - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
-//   "checksum"), the model has the other precision or another version, or it has more
-//   than BOWDEN_TERMS terms.
+//   "checksum"), or the model has the other precision, another version or more than
+//   BOWDEN_TERMS terms.
 // - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
 //   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
 bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
@@ -2891,8 +2891,8 @@ bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 // `about` may be null. Errors:
 //
 // - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
-//   "checksum"), the model has the other precision or another version, or it has more
-//   than BOWDEN_TERMS terms.
+//   "checksum"), or the model has the other precision, another version or more than
+//   BOWDEN_TERMS terms.
 // - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
 //   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
 bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
@@ -3042,9 +3042,10 @@ bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 // Prepares a stored object for a restart after a power-off. Call this function before
 // the first step. Otherwise the step continues from the stored command.
 //
-// The command becomes the value nearest to zero within the limits, and the first good
-// sample starts from it without a jump. The integral, the filtered derivative and the
-// stored samples are cleared. A latched safe command stays latched.
+// The command becomes the value nearest to zero within the limits. At the first good
+// sample, the controller starts from this command without a jump. The integral, the
+// filtered derivative and the stored samples are cleared. A latched safe command stays
+// latched.
 bowden_result bowden_pid_restore_f32(struct bowden_pid_f32 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
@@ -3141,9 +3142,10 @@ bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 // Prepares a stored object for a restart after a power-off. Call this function before
 // the first step. Otherwise the step continues from the stored command.
 //
-// The command becomes the value nearest to zero within the limits, and the first good
-// sample starts from it without a jump. The integral, the filtered derivative and the
-// stored samples are cleared. A latched safe command stays latched.
+// The command becomes the value nearest to zero within the limits. At the first good
+// sample, the controller starts from this command without a jump. The integral, the
+// filtered derivative and the stored samples are cleared. A latched safe command stays
+// latched.
 bowden_result bowden_pid_restore_f64(struct bowden_pid_f64 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
@@ -3211,8 +3213,8 @@ bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
 //
 // An oscillation of the input within 2*r does not move the output. At the input of a
 // hysteresis model, a play operator prevents reversals due to sensor noise. The first
-// output is the first good sample. If the input is not finite, the last output is held
-// (BOWDEN_RESULT_HELD).
+// output equals the first good sample. If the input is not finite, the last output is
+// held (BOWDEN_RESULT_HELD).
 bowden_result bowden_play_step_f32(struct bowden_play_f32 *play, float input, float *output);
 
 // Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
@@ -3228,8 +3230,8 @@ bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
 //
 // An oscillation of the input within 2*r does not move the output. At the input of a
 // hysteresis model, a play operator prevents reversals due to sensor noise. The first
-// output is the first good sample. If the input is not finite, the last output is held
-// (BOWDEN_RESULT_HELD).
+// output equals the first good sample. If the input is not finite, the last output is
+// held (BOWDEN_RESULT_HELD).
 bowden_result bowden_play_step_f64(struct bowden_play_f64 *play, double input, double *output);
 
 // Checks the settings and initialises the estimator. `about` may be null.

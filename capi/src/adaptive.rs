@@ -8,9 +8,9 @@ use core_bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Applied, Outp
 
 /// Maximum number of regressors in an adaptive law.
 pub const BOWDEN_REGRESSORS: usize = 4;
-/// Size in 64-bit words.
+/// Size of bowden_adaptive_f32 in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F32_WORDS: usize = 56;
-/// Size in 64-bit words.
+/// Size of bowden_adaptive_f64 in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F64_WORDS: usize = 104;
 
 /// The adaptive law and the number of regressors in its settings. All further regressors are zero.

@@ -12,7 +12,7 @@ use core_bowden::control::{
 macro_rules! settings {
     ($f:ident) => {
         pastey::paste! {
-            /// Settings of one estimate in (24)-(26).
+            /// Settings of one estimate of the adaptive law, (24)-(26).
             ///
             /// The macro of the adaptive law also initialises its estimates. The macro of this
             /// struct fixes the estimate at 0, with zero gain and no leakage.

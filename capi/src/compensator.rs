@@ -12,9 +12,9 @@ use core_bowden::model::Source;
 pub const BOWDEN_RANGES: usize = 17;
 /// Value of `source` in a range: the input of the transmission.
 pub const BOWDEN_SOURCE_INPUT: u32 = 0xffff_ffff;
-/// Size in 64-bit words.
+/// Size of bowden_compensator_f32 in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F32_WORDS: usize = 184;
-/// Size in 64-bit words.
+/// Size of bowden_compensator_f64 in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F64_WORDS: usize = 360;
 
 /// Converts the source of a range. The compensator later rejects a channel that no term reads.
@@ -94,7 +94,7 @@ macro_rules! compensator {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Inverts a loaded model and initialises the state at zero:
+            /// Inverts a loaded model and initialises the state to zero. Each step then computes
             ///
             ///     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
             ///

@@ -5,9 +5,9 @@ use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_rates, t
 use crate::settings::{marked, Marked};
 use core_bowden::signal::{EdgeVelocity, EdgeVelocityState};
 
-/// Size in 64-bit words.
+/// Size of bowden_edge_velocity_f32 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_edge_velocity_f64 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F64_WORDS: usize = 13;
 
 macro_rules! edges {

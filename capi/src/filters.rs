@@ -6,13 +6,13 @@ use crate::settings::{marked, Marked};
 use core_bowden::signal::{Biquad, BiquadState, LowPass, LowPassState};
 use core_bowden::{Error, Real};
 
-/// Size in 64-bit words.
+/// Size of bowden_low_pass_f32 in 64-bit words.
 pub const BOWDEN_LOW_PASS_F32_WORDS: usize = 4;
-/// Size in 64-bit words.
+/// Size of bowden_low_pass_f64 in 64-bit words.
 pub const BOWDEN_LOW_PASS_F64_WORDS: usize = 6;
-/// Size in 64-bit words.
+/// Size of bowden_biquad_f32 in 64-bit words.
 pub const BOWDEN_BIQUAD_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_biquad_f64 in 64-bit words.
 pub const BOWDEN_BIQUAD_F64_WORDS: usize = 14;
 
 /// The result of a filter step: good, or held because of a bad sample or dt.

@@ -6,7 +6,7 @@ use crate::settings::{marked, Marked, UNSET};
 use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::transmission::{Inverse, Transmission};
 
-/// Input and output quantities.
+/// Input and output quantities of a transmission.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_mode {
@@ -16,17 +16,17 @@ pub enum bowden_mode {
     Displacement = 1,
 }
 
-/// Size in 64-bit words.
+/// Size of bowden_hysteresis_f32 in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_hysteresis_f64 in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 14;
-/// Size in 64-bit words.
+/// Size of bowden_cable_f32 in 64-bit words.
 pub const BOWDEN_CABLE_F32_WORDS: usize = 10;
-/// Size in 64-bit words.
+/// Size of bowden_cable_f64 in 64-bit words.
 pub const BOWDEN_CABLE_F64_WORDS: usize = 20;
-/// Size in 64-bit words.
+/// Size of bowden_inverse_f32 in 64-bit words.
 pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
-/// Size in 64-bit words.
+/// Size of bowden_inverse_f64 in 64-bit words.
 pub const BOWDEN_INVERSE_F64_WORDS: usize = 20;
 
 /// The result of a step with one input: good or held.

@@ -9,9 +9,9 @@ use core_bowden::{Error, Real};
 /// Maximum number of cells in a cycle.
 pub const BOWDEN_CELLS: usize = 65535;
 const _: () = assert!(BOWDEN_CELLS == IterativeLearning::<f32>::MOST_CELLS);
-/// Size in 64-bit words.
+/// Size of bowden_iterative_learning_f32 in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F32_WORDS: usize = 14;
-/// Size in 64-bit words.
+/// Size of bowden_iterative_learning_f64 in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F64_WORDS: usize = 18;
 
 /// Initialises the object with both arrays after all checks. The function sets `unfiltered` to
@@ -74,8 +74,8 @@ macro_rules! learning {
             }
 
             /// Settings of iterative learning control. A cycle is divided into cells of equal width
-            /// in phase. e is the mean of reference - measured over a cell. The weights w(k) are
-            /// triangular, and their sum is 1:
+            /// in phase. e is the mean of reference - measured over a cell, and w(k) are triangular
+            /// weights with a sum of 1. In each cycle, the learned values become
             ///
             ///     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
             ///     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
@@ -188,9 +188,9 @@ macro_rules! learning {
             /// Processes one sample. Call this function before the step of the controller. `phase`
             /// is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
             ///
-            /// Set `learns` to 0 if the command was limited, the safe command is applied, or the
-            /// task is different. If more than half of the samples in a cell have `learns` = 0, the
-            /// errors of the next `lead` cells are ignored too.
+            /// Set `learns` to 0 while the command is limited, while the safe command is applied,
+            /// or during a different task. If more than half of the samples in a cell have `learns`
+            /// = 0, the errors of the next `lead` cells are ignored too.
             ///
             /// A phase outside 0 to 1 changes nothing and holds the feed-forward
             /// (BOWDEN_RESULT_HELD). The feedback controller does not detect this fault.

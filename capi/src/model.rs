@@ -13,9 +13,9 @@ pub const BOWDEN_TERMS: usize = 16;
 pub const BOWDEN_CHANNELS: usize = 16;
 /// Maximum size of a model, in bytes. No model with BOWDEN_TERMS terms exceeds this limit.
 pub const BOWDEN_MODEL_BYTES: usize = 2048;
-/// Size in 64-bit words.
+/// Size of bowden_model_f32 in 64-bit words.
 pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
-/// Size in 64-bit words.
+/// Size of bowden_model_f64 in 64-bit words.
 pub const BOWDEN_MODEL_F64_WORDS: usize = 216;
 
 /// The checksum that `bowden identify --model-out` writes after the model.
@@ -93,8 +93,8 @@ macro_rules! model {
             /// `about` may be null. Errors:
             ///
             /// - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
-            ///   "checksum"), the model has the other precision or another version, or it has more
-            ///   than BOWDEN_TERMS terms.
+            ///   "checksum"), or the model has the other precision, another version or more than
+            ///   BOWDEN_TERMS terms.
             /// - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
             ///   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
             #[no_mangle]

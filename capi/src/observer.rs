@@ -6,9 +6,9 @@ use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 
-/// Size in 64-bit words.
+/// Size of bowden_observer_f32 in 64-bit words.
 pub const BOWDEN_OBSERVER_F32_WORDS: usize = 14;
-/// Size in 64-bit words.
+/// Size of bowden_observer_f64 in 64-bit words.
 pub const BOWDEN_OBSERVER_F64_WORDS: usize = 25;
 
 macro_rules! observer {

@@ -9,9 +9,9 @@ use crate::{
 use crate::{bowden_saturation, limit_of_drive};
 use core_bowden::control::{Applied, Output, Pid, PidInput, PidState, PidTerms};
 
-/// Size in 64-bit words.
+/// Size of bowden_pid_f32 in 64-bit words.
 pub const BOWDEN_PID_F32_WORDS: usize = 24;
-/// Size in 64-bit words.
+/// Size of bowden_pid_f64 in 64-bit words.
 pub const BOWDEN_PID_F64_WORDS: usize = 40;
 
 macro_rules! pid {
@@ -274,9 +274,10 @@ macro_rules! pid {
             /// Prepares a stored object for a restart after a power-off. Call this function before
             /// the first step. Otherwise the step continues from the stored command.
             ///
-            /// The command becomes the value nearest to zero within the limits, and the first good
-            /// sample starts from it without a jump. The integral, the filtered derivative and the
-            /// stored samples are cleared. A latched safe command stays latched.
+            /// The command becomes the value nearest to zero within the limits. At the first good
+            /// sample, the controller starts from this command without a jump. The integral, the
+            /// filtered derivative and the stored samples are cleared. A latched safe command stays
+            /// latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_restore_ $f>](
                 pid: *mut [<bowden_pid_ $f>],

@@ -24,8 +24,8 @@ pub enum bowden_anti_windup {
     Conditional = 0,
     /// No anti-windup: the integral winds up.
     None = 1,
-    /// The integral term stays within the command range. This range is widened to include zero and
-    /// the value at which the command reaches its limit.
+    /// The integral term stays within the command range. For this purpose, the range is widened to
+    /// include zero and the integral term at which the command reaches its limit.
     Clamp = 2,
     /// The part of the command that the limits cut off is fed back to the integral with the time
     /// constant `tracking_time`.

@@ -5,9 +5,9 @@ use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::settings::{marked, Marked};
 use core_bowden::signal::{Implausible, Plausible, PlausibleState};
 
-/// Size in 64-bit words.
+/// Size of bowden_plausible_f32 in 64-bit words.
 pub const BOWDEN_PLAUSIBLE_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_plausible_f64 in 64-bit words.
 pub const BOWDEN_PLAUSIBLE_F64_WORDS: usize = 14;
 
 /// Reason why a sample is implausible.

@@ -4,9 +4,9 @@ use crate::object::{kept, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use core_bowden::signal::{Play, PlayState};
 
-/// Size in 64-bit words.
+/// Size of bowden_play_f32 in 64-bit words.
 pub const BOWDEN_PLAY_F32_WORDS: usize = 4;
-/// Size in 64-bit words.
+/// Size of bowden_play_f64 in 64-bit words.
 pub const BOWDEN_PLAY_F64_WORDS: usize = 6;
 
 macro_rules! play {
@@ -47,8 +47,8 @@ macro_rules! play {
             ///
             /// An oscillation of the input within 2*r does not move the output. At the input of a
             /// hysteresis model, a play operator prevents reversals due to sensor noise. The first
-            /// output is the first good sample. If the input is not finite, the last output is held
-            /// (BOWDEN_RESULT_HELD).
+            /// output equals the first good sample. If the input is not finite, the last output is
+            /// held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_step_ $f>](
                 play: *mut [<bowden_play_ $f>],

@@ -6,9 +6,9 @@ use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::signal::{Rates, RatesState};
 
-/// Size in 64-bit words.
+/// Size of bowden_rates_f32 in 64-bit words.
 pub const BOWDEN_RATES_F32_WORDS: usize = 10;
-/// Size in 64-bit words.
+/// Size of bowden_rates_f64 in 64-bit words.
 pub const BOWDEN_RATES_F64_WORDS: usize = 16;
 
 macro_rules! rates {

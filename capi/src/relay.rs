@@ -8,9 +8,9 @@ use core_bowden::control::{
     Fault, Output, PiRule, Relay, RelaySettings, RelayState, Status, Ultimate,
 };
 
-/// Size in 64-bit words.
+/// Size of bowden_relay_f32 in 64-bit words.
 pub const BOWDEN_RELAY_F32_WORDS: usize = 26;
-/// Size in 64-bit words.
+/// Size of bowden_relay_f64 in 64-bit words.
 pub const BOWDEN_RELAY_F64_WORDS: usize = 44;
 
 /// Phase of a relay experiment.

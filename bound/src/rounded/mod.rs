@@ -121,7 +121,7 @@ impl PeakRounded {
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if these settings and
-    /// this plant give no inequality; [`Error::Capacity`] for more than 16 regressors.
+    /// this plant give no inequality. [`Error::Capacity`] for more than 16 regressors.
     pub fn examine<T: Real, const N: usize>(
         settings: &AdaptiveSettings<T, N>,
         plant: &Plant<f64, N>,

@@ -136,9 +136,9 @@ pub(super) fn is_comment(line: &str) -> bool {
     ["#", "%", "//"].iter().any(|mark| line.starts_with(mark))
 }
 
-/// Takes the units from a row of units, with a note. The result is `None` if it is not a row of
-/// units: if a cell is a number, or if none of the columns that are read has a known unit there. An
-/// unknown word counts as a unit, except for the time.
+/// Takes the units from a row of units, with a note. The result is `None` if a cell is a number, or
+/// if no cell under a column that is read is a known unit. An unknown word counts as a unit, except
+/// for the time.
 fn units_row(
     table: &mut Table<'_>,
     cells: &[&str],
@@ -421,8 +421,8 @@ pub(super) fn passed_over(from: usize, to: usize, place: &str) -> String {
     }
 }
 
-/// Whether only text follows. No line is then a row of the table, and each line that is not blank
-/// has letters and no number at the position of the first number of a row.
+/// Whether only text follows. No line is then a row of the table. Each line that is not blank has
+/// letters, and has no number at the position of the first number of a row.
 pub(super) fn only_text(rest: &str, separator: u8, used: &[usize]) -> bool {
     let text = |line: &str| {
         let cells = cells(line, separator);

@@ -58,9 +58,8 @@ impl Lacking {
         (0..rows).filter(|row| has[*row]).collect()
     }
 
-    /// Whether most readings of the input and of the output are in rows without the other, or one
-    /// of them has a number in fewer than half of the rows. `--drop-bad` omits the rows without
-    /// such a number.
+    /// Whether most readings of input and output are in different rows, or one of the two has a
+    /// number in fewer than half of the rows. `--drop-bad` omits the rows without such a number.
     fn is_apart(&self, rows: usize, drop_bad: bool) -> bool {
         if self.first.iter().all(|(column, _)| *column >= 2) {
             return false;

@@ -2,8 +2,8 @@
 //!
 //! A program that writes decimals writes the same number of decimals in every cell (`900,000`), or
 //! as few as the number needs (`1,2`). A program that groups digits writes `900` and `1,197`. A
-//! column is ambiguous, and therefore rejected, if every comma is between one to three digits and
-//! three digits, and if the column also has whole numbers of at most three digits.
+//! column is rejected as ambiguous under two conditions. Every comma has one to three digits before
+//! it and three digits after it, and the column also has whole numbers of at most three digits.
 
 use super::error::{shown, RecordError, SHOWN};
 
@@ -76,9 +76,9 @@ fn digits(cell: &str) -> Option<usize> {
     (!own.is_empty() && own.bytes().all(|b| b.is_ascii_digit())).then_some(own.len())
 }
 
-/// Whether a cell shows that commas do not group the digits of its column. This is the case if
-/// there are not exactly three decimals, if the digits before the comma are more than three or
-/// start with zero, or if four or more digits have no comma.
+/// Whether a cell shows that commas do not group the digits of its column. The number of decimals
+/// is then not three, the digits before the comma are more than three or start with zero, or four
+/// or more digits have no comma.
 fn decides(cell: &str) -> bool {
     match cell.split_once(',') {
         None => digits(cell).is_some_and(|count| count > 3),

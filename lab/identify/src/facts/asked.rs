@@ -75,8 +75,8 @@ impl Asked {
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
-    /// A message with the file. It is also an error if two files are identical or have the same
-    /// samples, if two files disagree on their columns, or if there are too many files.
+    /// A message with the file. Identical files, files with the same samples, files with different
+    /// columns, and too many files are also errors.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
         Self::all_of(paths, |path| self.read(path))
     }

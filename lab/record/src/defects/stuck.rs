@@ -1,10 +1,10 @@
 //! A sensor that is constant while the measured quantity moves.
 //!
 //! A run of bit-identical values by itself proves nothing. References rest, encoders wait for the
-//! next count, and dry friction without noise is flat. The sensor is stuck if the other signals
-//! move during the run, and if one of two signs is present: the sensor noise disappears during the
-//! run, or the signal jumps at the end of the run further than it ever moves in one sample. If most
-//! of the record consists of such runs, the signal is flat by nature.
+//! next count, and dry friction without noise is flat. Two conditions identify a stuck sensor. The
+//! other signals move during the run. In addition, the sensor noise disappears during the run, or
+//! the signal jumps at its end further than it ever moves in one sample. If most of the record
+//! consists of such runs, the signal is flat by nature.
 
 use super::companion::Companion;
 use super::{share, Found};
