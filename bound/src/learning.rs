@@ -65,8 +65,8 @@ const MOST_HALVINGS: u32 = 80;
 ///   cannot remove these, and repeats a part of them one cycle later);
 /// - neither the command nor a learned value saturates, and no sample is bad.
 ///
-/// **The range of the slope f covers every constant slope.** It does not cover a slope that changes
-/// along the path, as the slope of a hysteresis does.
+/// **The certificate covers every constant slope f in the range.** It does not cover a slope that
+/// changes along the path, as the slope of a hysteresis does.
 ///
 /// The search for a proof may also fail because the number of regions is limited.
 ///

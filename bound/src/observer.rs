@@ -16,9 +16,9 @@ use bowden::{Error, Real};
 ///        + f·alpha~·(1 + c/K·s)·e^(−theta·s)·((k_p·s + k_i)·(tau·s + 1)² + s·D/alpha)
 /// ```
 /// lies in the closed right half-plane. The cancelled factor `(L·s + 1)·(tau·s + 1)²` has no zero
-/// there. `D = s²/wn² + 2·zeta·s/wn + 1` is the denominator of the nominal plant, and `D~ =
-/// f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` is the denominator of the plant. For a P controller, both
-/// terms are divided by s.
+/// there. `D = s²/wn² + 2·zeta·s/wn + 1` is the denominator of the nominal plant, and
+/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` is the denominator of the plant. For a P controller,
+/// both terms are divided by s.
 ///
 /// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`,
 /// whose zeros are in the left half-plane by Routh's criterion. From there, the plant and L are
@@ -41,9 +41,9 @@ use bowden::{Error, Real};
 /// - friction and load are bounded disturbances;
 /// - the sine and cosine of libm have an error of less than 1e-12.
 ///
-/// The range of f covers every constant slope. It does not cover a slope that changes along the
-/// path, as the slope of a hysteresis does. No range can contain a cable whose output falls while
-/// its input rises (f negative), because the loop oscillates with such a cable.
+/// The certificate covers every constant slope f in the range. It does not cover a slope that
+/// changes along the path, as the slope of a hysteresis does. No range can contain a cable whose
+/// output falls while its input rises (f negative), because the loop oscillates with such a cable.
 ///
 /// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
 /// exclusion).
@@ -162,9 +162,9 @@ pub(super) fn proportional_and_integral<T: Real>(
 }
 
 impl Loop {
-    /// A frequency r above which the first term of F is the larger term. This holds at all `|s| >=
-    /// r` in the right half-plane, for all plants on the path from the first plant. Both terms are
-    /// divided by `|s|⁵`. Then one term decreases and the other increases with `1/|s|`.
+    /// A frequency r above which the first term of F is the larger term. This holds at all
+    /// `|s| >= r` in the right half-plane, for all plants on the path from the first plant. Both
+    /// terms are divided by `|s|⁵`. Then one term decreases and the other increases with `1/|s|`.
     fn highest(&self, first: &Plants, all: &Plants) -> Option<f64> {
         let hull = first.hull(all);
         let (curvature, rate) = hull.denominator();

@@ -7,9 +7,9 @@ use bowden::{Error, Real};
 
 /// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
 ///
-/// The proof of [`Theorem1`](super::Theorem1) leaves three constants free: the weight c in `V =
-/// s²/2 + c·z²/2 + ...`, a target T of delta_hat with `T <= Delta`, and a rate theta below 2·lambda
-/// and twice the slowest leakage. Then `V' <= -theta·V + phi`, where phi is the sum of
+/// The proof of [`Theorem1`](super::Theorem1) leaves three constants free: the weight c in
+/// `V = s²/2 + c·z²/2 + ...`, a target T of delta_hat with `T <= Delta`, and a rate theta below
+/// 2·lambda and twice the slowest leakage. Then `V' <= -theta·V + phi`, where phi is the sum of
 ///
 /// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, with T instead of
 ///   p* for delta;

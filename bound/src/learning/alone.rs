@@ -49,8 +49,8 @@ impl Loop {
         None
     }
 
-    /// Lower bound on `|D~|/|s|²` and upper bound on `f·alpha~·|1 + c/K·s|/|s|²`, for all `|s| >=
-    /// 1/x` in the right half-plane.
+    /// Lower bound on `|D~|/|s|²` and upper bound on `f·alpha~·|1 + c/K·s|/|s|²`, for all
+    /// `|s| >= 1/x` in the right half-plane.
     fn shares(&self, hull: &Plants, x: Span) -> Option<(Span, Span)> {
         let (curvature, rate) = hull.denominator();
         let gain = Span::at(hull.gain.high.abs().max(hull.gain.low.abs()));

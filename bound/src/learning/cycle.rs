@@ -32,10 +32,10 @@ pub(super) struct Boxed {
 }
 
 impl Cycle<'_> {
-    /// Whether `|H| <= factor`, without a division by a number that may be small. Let `W =
-    /// e^(−jw·lead·T)/G`, `a = gain·S³`, and let s be the part of the factor that Q and the images
-    /// do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not positive. (If H itself
-    /// were enclosed, the proof would need many more regions.)
+    /// Whether `|H| <= factor`, without a division by a number that may be small. Let
+    /// `W = e^(−jw·lead·T)/G`, `a = gain·S³`, and let s be the part of the factor that Q and the
+    /// images do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not positive. (If H
+    /// itself were enclosed, the proof would need many more regions.)
     pub(super) fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
         let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {
@@ -75,9 +75,9 @@ impl Cycle<'_> {
     }
 
     /// Whether `|H| < 1` for frequencies from zero, where 1/G of a PI controller is unbounded. Let
-    /// `W = e^(−jw·L)/G` and `m >= 0.32·sin³` of the images. The inequality holds if `(kept² − (1 −
-    /// m)²)·|W|² + a² − 2·kept·a·Re(W)` is negative. Here Re(W) is finite, `Re(e^(−jw·L)·(1/P~ +
-    /// k_p)) − k_i·sin(w·L)/w`, and so is `|w·W|`.
+    /// `W = e^(−jw·L)/G` and `m >= 0.32·sin³` of the images. The inequality holds if
+    /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is negative. Here Re(W) is finite,
+    /// `Re(e^(−jw·L)·(1/P~ + k_p)) − k_i·sin(w·L)/w`, and so is `|w·W|`.
     pub(super) fn is_below_one(&self, all: &Boxed) -> bool {
         let (w, one) = (all.frequency, Span::at(1.0));
         let x = Span::at(0.5) * w * all.cell;

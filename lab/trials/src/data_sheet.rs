@@ -22,9 +22,9 @@ pub fn shown(rig: &RigConfig<f64>, rate: f64) -> f64 {
 /// The plant from command to torque, without friction.
 ///
 /// The torque is `N(s)·phi_d`, from the joint's spring, damping and inertia. The motor acts through
-/// the cable against this torque, and against its own inertia and damping. Therefore `P = gain/(1 +
-/// (th2·s² + th1·s)/N(s))`. N is approximated by its stiffness, in series with the stiffness of the
-/// cable.
+/// the cable against this torque, and against its own inertia and damping. Therefore
+/// `P = gain/(1 + (th2·s² + th1·s)/N(s))`. N is approximated by its stiffness, in series with the
+/// stiffness of the cable.
 ///
 /// # Errors
 /// The error of the core for an invalid parameter.

@@ -64,8 +64,8 @@
 //! n = 3.871
 //! ```
 //!
-//! A file that contains only such a model is accepted too. Together with gains, `bowden compare
-//! --model` gives the rig the transmission and the effects of this model
+//! A file that contains only such a model is accepted too. Together with gains,
+//! `bowden compare --model` gives the rig the transmission and the effects of this model
 //! ([`own_rig`](super::own_rig)).
 
 use bowden::control::{AdaptiveSettings, DerivativeSource, Estimator, Form, Leakage, PidSettings};

@@ -171,9 +171,9 @@ fn found<S: Fn(f64) -> Result<(), Error>>(
 }
 
 /// Smallest and largest slope of the torque versus the input torque, as fractions of B. Along a
-/// path, `d eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and `rho·(1 + (2·sigma −
-/// 1)·|eta|^n)` towards zero. It is therefore between `rho·min(0, 2·sigma)` and `rho·max(1,
-/// 2·sigma)`.
+/// path, `d eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and
+/// `rho·(1 + (2·sigma − 1)·|eta|^n)` towards zero. It is therefore between `rho·min(0, 2·sigma)`
+/// and `rho·max(1, 2·sigma)`.
 fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     let share = rig.kappa_eta * rig.rho / rig.b;
     let (least, most) = ((2.0 * rig.sigma).min(0.0), (2.0 * rig.sigma).max(1.0));

@@ -1,9 +1,10 @@
 //! The sampled loop of a static gain with a delay: margins, overshoot, settling time.
 //!
-//! With the plant's gain and the sample time as units, `y(k) = u(k - D)` and `C(z) = k_p + k_i/(1 -
-//! 1/z) + k_d·(1 - 1/z)/(tau + 1 - tau/z)`, which is what [`Pid::step`](bowden::control::Pid::step)
-//! computes. The hold is part of the sampled plant, so the margins are exact. Source: K. J. Åström,
-//! B. Wittenmark, *Computer-Controlled Systems*, 3rd ed., 1997, 3.3 and 4.
+//! With the plant's gain and the sample time as units, `y(k) = u(k - D)` and
+//! `C(z) = k_p + k_i/(1 - 1/z) + k_d·(1 - 1/z)/(tau + 1 - tau/z)`, which is what
+//! [`Pid::step`](bowden::control::Pid::step) computes. The hold is part of the sampled plant, so
+//! the margins are exact. Source: K. J. Åström, B. Wittenmark, *Computer-Controlled Systems*, 3rd
+//! ed., 1997, 3.3 and 4.
 
 use std::f64::consts::PI;
 

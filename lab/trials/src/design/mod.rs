@@ -128,9 +128,9 @@ pub struct Bounds {
     pub low: f64,
     /// Largest command \[command unit\] of the record.
     pub high: f64,
-    /// Smallest slew rate that does not limit the response to noise, `2·(k_p +
-    /// k_i/rate)·6·noise·rate` \[command unit/s\]. If a derivative helps, `k_p` is increased by
-    /// `k_d/(derivative_time + 1/rate)`.
+    /// Smallest slew rate that does not limit the response to noise,
+    /// `2·(k_p + k_i/rate)·6·noise·rate` \[command unit/s\]. If a derivative helps, `k_p` is
+    /// increased by `k_d/(derivative_time + 1/rate)`.
     pub slew_of_noise: f64,
     /// Largest rate of the input in the record \[command unit/s\].
     pub slew_of_record: f64,

@@ -7,11 +7,12 @@ use serde::Serialize;
 
 /// Smallest and largest slope of the output versus the input.
 ///
-/// With zeta = eta in the direction of the motion, and p = rho times the path, `d zeta/dp = 1 -
-/// zeta^n` while loading and `1 + (2·sigma - 1)·abs(zeta)^n` while unloading. With abs(zeta) <= 1
-/// and 2·sigma >= 1, the slope of eta versus the input is in `0..=rho·max(1, 2·sigma)`. In torque
-/// mode (5)-(7), the slope of the output is therefore between `B` and `B - kappa_eta·rho·max(1,
-/// 2·sigma)`. A saturated loop reaches both ends, before and after a reversal.
+/// With zeta = eta in the direction of the motion, and p = rho times the path,
+/// `d zeta/dp = 1 - zeta^n` while loading and `1 + (2·sigma - 1)·abs(zeta)^n` while unloading. With
+/// abs(zeta) <= 1 and 2·sigma >= 1, the slope of eta versus the input is in
+/// `0..=rho·max(1, 2·sigma)`. In torque mode (5)-(7), the slope of the output is therefore between
+/// `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. A saturated loop reaches both ends, before and
+/// after a reversal.
 ///
 /// ```
 /// use bowden::hysteresis::BoucWen;
