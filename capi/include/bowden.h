@@ -137,8 +137,8 @@
 // Size of bowden_observer_f64 in 64-bit words.
 #define BOWDEN_OBSERVER_F64_WORDS 25
 
-// Value of `after` in a fallback that holds the last good command indefinitely. Use it in a
-// simulation, not on a machine.
+// Value of `after` in a fallback that holds the last good command indefinitely. Use this value in
+// a simulation, not on a machine.
 #define BOWDEN_HOLD_FOR_EVER 4294967295
 
 // Size of bowden_pid_f32 in 64-bit words.
@@ -515,7 +515,7 @@ typedef uint32_t bowden_saturation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Tuning rule for PI gains from the ultimate gain and period.
+// Tuning rule that computes PI gains from the ultimate gain and the ultimate period.
 enum bowden_pi_rule
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -956,8 +956,8 @@ typedef struct bowden_motion_f32 {
     float acceleration;
 } bowden_motion_f32;
 
-// Range of one source in the bench record. The effects do not extrapolate beyond this
-// range.
+// Range of one source in the bench record. The effects are not extrapolated beyond
+// this range.
 typedef struct bowden_range_f32 {
     // Channel index, from 0, or BOWDEN_SOURCE_INPUT.
     uint32_t source;
@@ -1024,8 +1024,8 @@ typedef struct bowden_motion_f64 {
     double acceleration;
 } bowden_motion_f64;
 
-// Range of one source in the bench record. The effects do not extrapolate beyond this
-// range.
+// Range of one source in the bench record. The effects are not extrapolated beyond
+// this range.
 typedef struct bowden_range_f64 {
     // Channel index, from 0, or BOWDEN_SOURCE_INPUT.
     uint32_t source;
@@ -2147,7 +2147,7 @@ typedef struct bowden_relay_settings_f32 {
     // value of the measurement noise.
     float hysteresis;
     // Largest distance of the output from the reference [output unit], above
-    // `hysteresis`. One sample beyond this distance ends the experiment.
+    // `hysteresis`. A single sample beyond this distance ends the experiment.
     float most_deviation;
     // Number of consecutive cycles that are averaged, at least 2.
     uint32_t cycles;
@@ -2249,7 +2249,7 @@ typedef struct bowden_relay_settings_f64 {
     // value of the measurement noise.
     double hysteresis;
     // Largest distance of the output from the reference [output unit], above
-    // `hysteresis`. One sample beyond this distance ends the experiment.
+    // `hysteresis`. A single sample beyond this distance ends the experiment.
     double most_deviation;
     // Number of consecutive cycles that are averaged, at least 2.
     uint32_t cycles;
@@ -2450,7 +2450,7 @@ bowden_result bowden_adaptive_is_latched_f64(const struct bowden_adaptive_f64 *l
 // null if `range_count` is 0. `about` may be null. After the call, the compensator no
 // longer needs the model.
 //
-// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
+// If the model has no inverse, the result is BOWDEN_RESULT_ERROR_INADMISSIBLE.
 bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compensator,
                                           const struct bowden_model_f32 *model,
                                           float longest_dt,
@@ -2507,7 +2507,7 @@ bowden_result bowden_compensator_reset_f32(struct bowden_compensator_f32 *compen
 // null if `range_count` is 0. `about` may be null. After the call, the compensator no
 // longer needs the model.
 //
-// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
+// If the model has no inverse, the result is BOWDEN_RESULT_ERROR_INADMISSIBLE.
 bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compensator,
                                           const struct bowden_model_f64 *model,
                                           double longest_dt,
@@ -2750,7 +2750,7 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
 
 // Checks the settings, initialises the controller, and sets its two arrays of `cells`
 // numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
-// BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
+// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
 //
 // The caller owns the arrays, which must exist for as long as the object is used. The
 // caller may read `learned` between two calls. Do not write to the arrays or use them
@@ -2764,9 +2764,9 @@ bowden_result bowden_iterative_learning_init_f32(struct bowden_iterative_learnin
                                                  size_t cells,
                                                  struct bowden_about *about);
 
-// Like bowden_iterative_learning_init, but continues with the values in `learned`,
-// such as values saved before a reset. The function clamps the values to the limit and
-// replaces NaN by zero. `unfiltered` may contain any values.
+// Initialises the object like bowden_iterative_learning_init, but continues with the
+// values in `learned`, such as values saved before a reset. The function clamps the
+// values to the limit and replaces NaN by zero. `unfiltered` may contain any values.
 bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learning_f32 *learning,
                                                    const struct bowden_iterative_learning_settings_f32 *settings,
                                                    float *learned,
@@ -2799,7 +2799,7 @@ bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learnin
 
 // Checks the settings, initialises the controller, and sets its two arrays of `cells`
 // numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
-// BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
+// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
 //
 // The caller owns the arrays, which must exist for as long as the object is used. The
 // caller may read `learned` between two calls. Do not write to the arrays or use them
@@ -2813,9 +2813,9 @@ bowden_result bowden_iterative_learning_init_f64(struct bowden_iterative_learnin
                                                  size_t cells,
                                                  struct bowden_about *about);
 
-// Like bowden_iterative_learning_init, but continues with the values in `learned`,
-// such as values saved before a reset. The function clamps the values to the limit and
-// replaces NaN by zero. `unfiltered` may contain any values.
+// Initialises the object like bowden_iterative_learning_init, but continues with the
+// values in `learned`, such as values saved before a reset. The function clamps the
+// values to the limit and replaces NaN by zero. `unfiltered` may contain any values.
 bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learning_f64 *learning,
                                                    const struct bowden_iterative_learning_settings_f64 *settings,
                                                    double *learned,
@@ -2934,8 +2934,8 @@ bowden_result bowden_observer_step_f32(struct bowden_observer_f32 *observer,
                                        float measured,
                                        struct bowden_observer_output_f32 *out);
 
-// Computes the command [command unit] for which the nominal plant follows a motion.
-// `wanted` is the motion desired one latency later.
+// Computes the command [command unit] for which the output of the nominal plant
+// follows a desired motion. `wanted` is the motion desired one latency later.
 bowden_result bowden_observer_feed_forward_f32(const struct bowden_observer_f32 *observer,
                                                const struct bowden_motion_f32 *wanted,
                                                float *command);
@@ -2960,8 +2960,8 @@ bowden_result bowden_observer_step_f64(struct bowden_observer_f64 *observer,
                                        double measured,
                                        struct bowden_observer_output_f64 *out);
 
-// Computes the command [command unit] for which the nominal plant follows a motion.
-// `wanted` is the motion desired one latency later.
+// Computes the command [command unit] for which the output of the nominal plant
+// follows a desired motion. `wanted` is the motion desired one latency later.
 bowden_result bowden_observer_feed_forward_f64(const struct bowden_observer_f64 *observer,
                                                const struct bowden_motion_f64 *wanted,
                                                double *command);
@@ -3019,8 +3019,8 @@ bowden_result bowden_pid_applied_f32(struct bowden_pid_f32 *pid, float command);
 // such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
 //
 // Call this function between two steps. The last change of the integral towards the
-// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. A `saturation` outside
-// this enum is an error (BOWDEN_RESULT_ERROR_CHOICE).
+// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. If `saturation` is not
+// in bowden_saturation, the result is BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_pid_at_limit_f32(struct bowden_pid_f32 *pid, uint32_t saturation);
 
 // Sets `saturation` to the limit that was active at the last good sample, one of
@@ -3057,8 +3057,8 @@ bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_sample_f32 *sample,
                                     struct bowden_output_f32 *out);
 
-// Changes the settings of a running loop without a jump in the command. On an error
-// the loop continues with the old settings. `about` may be null.
+// Changes the settings of a running loop without a jump in the command. After an
+// error, the loop continues with the old settings. `about` may be null.
 //
 // If the new range excludes the applied command, the next command is the nearest
 // command in the range, regardless of the slew-rate limit. Therefore, narrow a range
@@ -3119,8 +3119,8 @@ bowden_result bowden_pid_applied_f64(struct bowden_pid_f64 *pid, double command)
 // such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
 //
 // Call this function between two steps. The last change of the integral towards the
-// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. A `saturation` outside
-// this enum is an error (BOWDEN_RESULT_ERROR_CHOICE).
+// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. If `saturation` is not
+// in bowden_saturation, the result is BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_pid_at_limit_f64(struct bowden_pid_f64 *pid, uint32_t saturation);
 
 // Sets `saturation` to the limit that was active at the last good sample, one of
@@ -3157,8 +3157,8 @@ bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_sample_f64 *sample,
                                     struct bowden_output_f64 *out);
 
-// Changes the settings of a running loop without a jump in the command. On an error
-// the loop continues with the old settings. `about` may be null.
+// Changes the settings of a running loop without a jump in the command. After an
+// error, the loop continues with the old settings. `about` may be null.
 //
 // If the new range excludes the applied command, the next command is the nearest
 // command in the range, regardless of the slew-rate limit. Therefore, narrow a range

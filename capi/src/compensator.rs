@@ -29,8 +29,8 @@ fn source(number: u32) -> Result<Source, Refused> {
 macro_rules! compensator {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Range of one source in the bench record. The effects do not extrapolate beyond this
-            /// range.
+            /// Range of one source in the bench record. The effects are not extrapolated beyond
+            /// this range.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_range_ $f>] {
@@ -104,7 +104,7 @@ macro_rules! compensator {
             /// null if `range_count` is 0. `about` may be null. After the call, the compensator no
             /// longer needs the model.
             ///
-            /// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
+            /// If the model has no inverse, the result is BOWDEN_RESULT_ERROR_INADMISSIBLE.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_init_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],

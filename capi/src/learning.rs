@@ -143,7 +143,7 @@ macro_rules! learning {
 
             /// Checks the settings, initialises the controller, and sets its two arrays of `cells`
             /// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
-            /// BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
+            /// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
             ///
             /// The caller owns the arrays, which must exist for as long as the object is used. The
             /// caller may read `learned` between two calls. Do not write to the arrays or use them
@@ -166,9 +166,9 @@ macro_rules! learning {
                 }
             }
 
-            /// Like bowden_iterative_learning_init, but continues with the values in `learned`,
-            /// such as values saved before a reset. The function clamps the values to the limit and
-            /// replaces NaN by zero. `unfiltered` may contain any values.
+            /// Initialises the object like bowden_iterative_learning_init, but continues with the
+            /// values in `learned`, such as values saved before a reset. The function clamps the
+            /// values to the limit and replaces NaN by zero. `unfiltered` may contain any values.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_resume_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],

@@ -133,8 +133,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// Computes the command [command unit] for which the nominal plant follows a motion.
-            /// `wanted` is the motion desired one latency later.
+            /// Computes the command [command unit] for which the output of the nominal plant
+            /// follows a desired motion. `wanted` is the motion desired one latency later.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_feed_forward_ $f>](
                 observer: *const [<bowden_observer_ $f>],

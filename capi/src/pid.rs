@@ -205,8 +205,8 @@ macro_rules! pid {
             /// such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
             ///
             /// Call this function between two steps. The last change of the integral towards the
-            /// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. A `saturation` outside
-            /// this enum is an error (BOWDEN_RESULT_ERROR_CHOICE).
+            /// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. If `saturation` is not
+            /// in bowden_saturation, the result is BOWDEN_RESULT_ERROR_CHOICE.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_at_limit_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -318,8 +318,8 @@ macro_rules! pid {
                 })())
             }
 
-            /// Changes the settings of a running loop without a jump in the command. On an error
-            /// the loop continues with the old settings. `about` may be null.
+            /// Changes the settings of a running loop without a jump in the command. After an
+            /// error, the loop continues with the old settings. `about` may be null.
             ///
             /// If the new range excludes the applied command, the next command is the nearest
             /// command in the range, regardless of the slew-rate limit. Therefore, narrow a range

@@ -47,7 +47,7 @@ pub enum bowden_relay_failure {
     Other = 5,
 }
 
-/// Tuning rule for PI gains from the ultimate gain and period.
+/// Tuning rule that computes PI gains from the ultimate gain and the ultimate period.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_pi_rule {
@@ -96,7 +96,7 @@ macro_rules! relay {
                 /// value of the measurement noise.
                 pub hysteresis: $f,
                 /// Largest distance of the output from the reference [output unit], above
-                /// `hysteresis`. One sample beyond this distance ends the experiment.
+                /// `hysteresis`. A single sample beyond this distance ends the experiment.
                 pub most_deviation: $f,
                 /// Number of consecutive cycles that are averaged, at least 2.
                 pub cycles: u32,

@@ -16,7 +16,8 @@ use crate::score::density::Spectrum;
 /// Maximum number of bins for a variable.
 const BINS: usize = 20;
 
-/// All data that a page draws for a run. Residuals are given in pairs, before and after the search.
+/// All data that a page draws for a run. Each pair of residuals is from the baseline and the final
+/// model or, in a validation, without and with the fitted gain and offset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// The signals over time.
@@ -39,7 +40,7 @@ pub struct Dependence {
     pub words: String,
     /// Its unit, if the record states it.
     pub unit: Option<String>,
-    /// Bins in ascending order. Each bin has two means, before and after the search.
+    /// Bins in ascending order. Each bin has one mean for each of the two residuals.
     pub bins: Vec<Bin>,
 }
 
