@@ -56,7 +56,8 @@ pub struct Rms<T> {
     /// W·epsilon.
     smoothing: T,
     delta: T,
-    /// Without its true value, which is the target. `None` if delta_hat is constant.
+    /// Adaptation of delta_hat, without its true value, which is the target. `None` if delta_hat is
+    /// constant.
     adapting: Option<Adapting<T>>,
 }
 

@@ -51,7 +51,7 @@ pub struct Tightest<T> {
 struct Problem<'a, T, const N: usize> {
     law: &'a Adaptive<T, N>,
     plant: &'a Plant<T, N>,
-    /// Without its true value, which is the target.
+    /// Adaptation of delta_hat, without its true value, which is the target.
     delta: Option<Adapting<T>>,
     targets: Interval<T>,
     /// Smallest leakage of an estimate in V \[1/s\].

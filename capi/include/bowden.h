@@ -59,7 +59,7 @@
 // Size of bowden_adaptive_f64 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F64_WORDS 104
 
-// Maximum number of ranges of a compensator.
+// Maximum number of ranges in a compensator.
 #define BOWDEN_RANGES 17
 
 // Value of `source` in a range: the input of the transmission.
@@ -213,8 +213,8 @@ enum bowden_result
     BOWDEN_RESULT_ERROR_CAPACITY = -7,
     // A setting has a value that is not in its enum.
     BOWDEN_RESULT_ERROR_CHOICE = -8,
-    // The bytes of a model are damaged or too many, or the model has the other precision, another
-    // version or too many terms.
+    // The bytes of a model are damaged or too many, or the model is of the other precision or of
+    // another version, or has too many terms.
     BOWDEN_RESULT_ERROR_MODEL = -9,
     // The settings were not initialised with their macro NAME_INIT.
     BOWDEN_RESULT_ERROR_SETTINGS = -10,
@@ -2855,8 +2855,8 @@ bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learnin
 // `about` may be null. Errors:
 //
 // - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
-//   "checksum"), or the model has the other precision, another version or more than
-//   BOWDEN_TERMS terms.
+//   "checksum"), or the model is of the other precision or of another version, or has
+//   more than BOWDEN_TERMS terms.
 // - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
 //   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
 bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
@@ -2891,8 +2891,8 @@ bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 // `about` may be null. Errors:
 //
 // - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
-//   "checksum"), or the model has the other precision, another version or more than
-//   BOWDEN_TERMS terms.
+//   "checksum"), or the model is of the other precision or of another version, or has
+//   more than BOWDEN_TERMS terms.
 // - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
 //   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
 bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,

@@ -8,7 +8,7 @@ use crate::{bowden_model_f32, bowden_model_f64, bowden_motion_f32, bowden_motion
 use core_bowden::control::{Applied, BenchRange, Compensator, CompensatorInput, CompensatorState};
 use core_bowden::model::Source;
 
-/// Maximum number of ranges of a compensator.
+/// Maximum number of ranges in a compensator.
 pub const BOWDEN_RANGES: usize = 17;
 /// Value of `source` in a range: the input of the transmission.
 pub const BOWDEN_SOURCE_INPUT: u32 = 0xffff_ffff;

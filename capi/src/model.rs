@@ -93,8 +93,8 @@ macro_rules! model {
             /// `about` may be null. Errors:
             ///
             /// - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
-            ///   "checksum"), or the model has the other precision, another version or more than
-            ///   BOWDEN_TERMS terms.
+            ///   "checksum"), or the model is of the other precision or of another version, or has
+            ///   more than BOWDEN_TERMS terms.
             /// - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
             ///   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
             #[no_mangle]

@@ -46,8 +46,8 @@ pub enum bowden_result {
     ErrorCapacity = -7,
     /// A setting has a value that is not in its enum.
     ErrorChoice = -8,
-    /// The bytes of a model are damaged or too many, or the model has the other precision, another
-    /// version or too many terms.
+    /// The bytes of a model are damaged or too many, or the model is of the other precision or of
+    /// another version, or has too many terms.
     ErrorModel = -9,
     /// The settings were not initialised with their macro NAME_INIT.
     ErrorSettings = -10,

@@ -174,7 +174,7 @@ fn largest(
     (all + updates(gains, gains.lambda * s, ubar)) * Enclosure::power(1)
 }
 
-/// The same for the estimates' updates, whose inputs are `lambda·s` and its factors.
+/// The same bound for the updates of the estimates, whose inputs are `lambda·s` and its factors.
 fn updates(gains: &Gains, pull: Enclosure, ubar: Enclosure) -> Enclosure {
     let [beta, delta] = &gains.adapts;
     let mut all = pull + beta.numbers(pull * ubar, gains.step) + delta.numbers(pull, gains.step);

@@ -1,4 +1,4 @@
-//! From bytes to text: UTF-8, UTF-16 or Windows-1252, with or without a byte-order mark.
+//! Decodes text in UTF-8, UTF-16 or Windows-1252, with or without a byte-order mark.
 //!
 //! UTF-8 and UTF-16 can be verified, because bytes in another encoding are almost never valid UTF-8
 //! or UTF-16. Otherwise Windows-1252 (which contains Latin-1) is assumed, but only if no non-ASCII
@@ -28,8 +28,8 @@ const BIG: Utf16 = Utf16 {
     unit: u16::from_be_bytes,
 };
 
-/// The characters 0x80 to 0x9f of Windows-1252; the others are those of Latin-1, and U+0080 to
-/// U+009F stand for bytes that it does not define.
+/// The characters 0x80 to 0x9f of Windows-1252. The other characters are the same as in Latin-1.
+/// U+0080 to U+009F represent bytes that Windows-1252 does not define.
 const WINDOWS_1252: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',

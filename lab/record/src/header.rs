@@ -8,7 +8,7 @@ use super::{number, sizes, units};
 /// have 0.775, `t` and `tau_o` 0.76, `tau_i` and `force` 0.46.
 const ALIKE: f64 = 0.77;
 
-/// A column as named in the header; the name is empty if it has none.
+/// A column of the header. Its name is empty if the column has no name.
 pub(super) struct Named {
     pub(super) name: String,
     pub(super) unit: Option<String>,

@@ -1,9 +1,10 @@
 //! The position of the table in a text: preamble, names, units, values.
 //!
 //! A file whose first line contains the requested names is read from the first line. Otherwise the
-//! beginning of the file is searched for rows of numbers, and the rows above them for those names.
-//! Lines above the names are a preamble. A line between names and numbers is a row of units.
-//! Nothing else is guessed. If the names are not found, the first line is rejected as a header.
+//! beginning of the file is searched for rows of numbers, and the rows above the numbers are
+//! searched for the requested names. Lines above the names are a preamble. A line between names and
+//! numbers is a row of units. Nothing else is guessed. If the names are not found, the first line
+//! is rejected as a header.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{self, Header};

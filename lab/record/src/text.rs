@@ -1,4 +1,4 @@
-//! From text to rows of cells.
+//! Splits a text into rows of cells.
 
 use super::error::{shown, RecordError};
 use super::limits::PIECES;
@@ -118,7 +118,7 @@ impl<'a> Rows<'a> {
         true
     }
 
-    /// Whether there are segments behind this one.
+    /// Whether there are segments after this one.
     pub(super) fn has_more(&self) -> bool {
         self.more.len() > 0
     }

@@ -235,7 +235,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
 /// The certificate of each controller of `bowden compare`, by name.
 ///
 /// # Errors
-/// As [`all`].
+/// The same as [`all`].
 pub fn named(setup: &Setup) -> Result<BTreeMap<String, Promise>, String> {
     let lines = all(setup)?;
     let rms = lines.iter().find(|l| l.kind == "rms" && l.value.is_some());

@@ -44,7 +44,7 @@ pub fn above(x: f64) -> String {
     fixed(x, places(x, 4), Towards::Above)
 }
 
-/// With `places` decimals.
+/// The number with `places` decimals.
 #[must_use]
 pub fn fixed(x: f64, places: usize, to: Towards) -> String {
     if !x.is_finite() {
@@ -54,7 +54,7 @@ pub fn fixed(x: f64, places: usize, to: Towards) -> String {
     signed(x, cut)
 }
 
-/// In the form `1.5e-3`, with `places` decimals.
+/// The number in the form `1.5e-3`, with `places` decimals.
 #[must_use]
 pub fn scientific(x: f64, places: usize, to: Towards) -> String {
     if !x.is_finite() {

@@ -22,11 +22,11 @@ pub const QUIET: f64 = 0.2;
 pub struct Pair {
     /// Name of the controller, and the use of the model.
     pub controller: String,
-    /// Without any model.
+    /// The result without any model.
     pub plain: Line,
-    /// With the baseline model, fitted to the bench record.
+    /// The result with the baseline model, which is fitted to the bench record.
     pub declared: Line,
-    /// With the found terms in addition.
+    /// The result with the found terms in addition.
     pub found: Line,
 }
 

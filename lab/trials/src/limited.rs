@@ -11,14 +11,14 @@ pub const TOLD: f64 = 0.2;
 /// Fractions of the samples of the steady part.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct AtLimit {
-    /// At an end of the range.
+    /// Fraction at an end of the range.
     pub range: f64,
-    /// At the slew-rate limit.
+    /// Fraction at the slew-rate limit.
     pub slew: f64,
 }
 
 impl AtLimit {
-    /// In words, if one of the two exceeds [`TOLD`].
+    /// The fractions in words, if one of them exceeds [`TOLD`].
     #[must_use]
     pub fn words(&self) -> Option<String> {
         let told = |share: f64, limit: &str| {

@@ -124,7 +124,7 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 /// The transmission of a model file.
 ///
 /// # Errors
-/// A message if there is none.
+/// A message if the file has no transmission.
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();

@@ -1,4 +1,5 @@
-//! Cost of a run of `identify`: counts, which are reproducible, and seconds, which are not.
+//! Cost of a run of `identify`: counts, which are reproducible, and seconds, which are not
+//! reproducible.
 
 use crate::problem::clock::Moment;
 use crate::problem::cost::Counts;

@@ -60,7 +60,7 @@ pub struct FinalFacts {
 pub struct GainsOfFile {
     /// The file.
     pub path: String,
-    /// In the order of [`FinalFacts::gain_names`].
+    /// The gains in the order of [`FinalFacts::gain_names`].
     pub gains: [Option<Parameter>; 3],
 }
 

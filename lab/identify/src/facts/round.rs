@@ -88,7 +88,7 @@ pub struct RoundModel {
     /// The content of a model file.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<ModelFile>,
-    /// The same for each file, if the files have separate gains.
+    /// The content of a model file for each record, if the records have separate gains.
     #[serde(skip_serializing_if = "Option::is_none")]
     models: Option<Vec<ModelFile>>,
     /// Whether the parameters were fitted to the selection segment.

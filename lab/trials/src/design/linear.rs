@@ -114,7 +114,7 @@ pub(super) fn margins(gains: Gains, delay: usize) -> Margins {
     found
 }
 
-/// Where a function changes its sign between `low` and `high`.
+/// The point between `low` and `high` at which a function changes its sign.
 fn crossing(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
     let below = of(low) < 0.0;
     for _ in 0..60 {

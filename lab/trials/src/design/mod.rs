@@ -1,4 +1,4 @@
-//! From an identified model to gains: the calculation behind `bowden design`.
+//! Computes gains from an identified model, for `bowden design`.
 //!
 //! The plant is the transmission of the model, with a slope of the output within [`Slopes`], after
 //! a delay. The model does not contain inertias, springs and dampings. Their lag must be part of
@@ -175,7 +175,7 @@ pub struct Designed {
     pub adaptive: AdaptiveDesign,
     /// Notes for the user.
     pub notes: Vec<String>,
-    /// The same data as a file.
+    /// The same data as a gains file.
     #[serde(skip)]
     pub gains: GainsFile,
 }

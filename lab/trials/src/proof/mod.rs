@@ -223,7 +223,7 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 /// The error for a file of gains without a plant.
 const NO_PLANT: &str = "has no [plant]; add a [plant] table with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
 
-/// The same for a text; `label` is the name of the file.
+/// Reads the text of a file of gains and examines the gains. `label` is the name of the file.
 ///
 /// # Errors
 /// The same as [`prove`].
@@ -414,7 +414,8 @@ fn proof<T: Real, const N: usize>(
     }
 }
 
-/// The assumptions of the theorem, and those on the adaptation that a file does not state.
+/// The assumptions of the theorem, and the assumptions on the adaptation, which a file does not
+/// state.
 fn assumptions() -> Vec<&'static str> {
     let kind = Kind::PeakRounded;
     let certificate = bowden_bound::Certificate { kind, value: 0.0 };
