@@ -2,8 +2,8 @@
 //! other text.
 //!
 //! Source: ECMA-376, *Office Open XML*, part 1, chapter 18. Numbers keep all their digits. A date
-//! becomes `2026-03-01T14:03:21.250000`, a time of day `14:03:21.250000` and a duration its seconds.
-//! An error such as `#DIV/0!` becomes an empty cell.
+//! becomes `2026-03-01T14:03:21.250000`, and a time of day becomes `14:03:21.250000`. A duration
+//! becomes its number of seconds. An error such as `#DIV/0!` becomes an empty cell.
 
 use super::encoding::Decoded;
 use super::error::{shown, RecordError, NAME_LENGTH};
