@@ -8,7 +8,7 @@ use core::ops::{Add, Div, Mul, Sub};
 /// Bits of a mantissa: a product of two fits into an `i128`.
 const BITS: u32 = 62;
 
-/// Bits by which the greater of two summands is moved up before the lesser is cut.
+/// Number of bits by which the larger summand is shifted up before the smaller summand is cut.
 const HEADROOM: i32 = 60;
 
 /// Rounding direction of an operation.
@@ -36,7 +36,7 @@ pub struct Dyadic {
 }
 
 impl Dyadic {
-    /// Beyond every number that a proof needs.
+    /// A number larger than every number in a proof.
     const HUGE: Self = Self {
         mantissa: 1,
         exponent: 1 << 20,
@@ -65,7 +65,7 @@ impl Dyadic {
         }
     }
 
-    /// Without trailing zeros, so equal numbers have equal representations.
+    /// The number without trailing zeros, so that equal numbers have equal representations.
     fn exactly(mantissa: i128, exponent: i32) -> Self {
         if mantissa == 0 {
             return Self::ZERO;
@@ -77,7 +77,7 @@ impl Dyadic {
         }
     }
 
-    /// At most `bits` of the mantissa, rounded.
+    /// The number with at most `bits` bits of mantissa, rounded.
     fn cut(mantissa: i128, exponent: i32, bits: u32, to: Towards) -> Self {
         let length = i128::BITS - mantissa.unsigned_abs().leading_zeros();
         let over = length.saturating_sub(bits);
@@ -205,7 +205,7 @@ impl Ord for Dyadic {
 /// An interval, rounded outwards so that it contains the exact result of each operation.
 ///
 /// A quotient by an interval that contains zero is the interval of all numbers. A comparison
-/// ([`is_at_most`](Self::is_at_most)) is true only if it is certain.
+/// ([`is_at_most`](Self::is_at_most)) is true only if it holds for all numbers in both intervals.
 ///
 /// ```
 /// use bowden_bound::Enclosure;

@@ -1,6 +1,6 @@
 //! A property of every point of a region, proved by bisection of the region.
 
-/// The limit of the number of regions, and their count.
+/// The maximum number of regions, and the number so far.
 pub(super) struct Halving {
     most_boxes: u32,
     most_halvings: u32,

@@ -14,25 +14,25 @@ use cycle::{Boxed, Cycle};
 mod alone;
 mod cycle;
 
-/// Most regions of a proof: a second or less on a computer.
+/// Maximum number of regions in a proof. A proof takes a second or less on a computer.
 const MOST_BOXES: u32 = 500_000;
 
-/// Most halvings of a region.
+/// Maximum number of bisections of a region.
 const MOST_HALVINGS: u32 = 80;
 
 /// Convergence of iterative learning control with a P or PI controller, for every plant of a range.
 ///
-/// Let `C = k_p + k_i/s`, let P~ be the plant of a [`PlantRange`], and let `G = P~/(1 + C·P~)` be
-/// the transfer function from the feed-forward to the measured output. Over one cycle, a sinusoid
-/// in the learning error is multiplied by the factor
+/// Let `C = k_p + k_i/s`, and let P~ be the plant of a [`PlantRange`]. Then `G = P~/(1 + C·P~)` is
+/// the transfer function from the feed-forward to the measured output. From one cycle to the next,
+/// a sinusoid in the learning error is multiplied by the factor
 ///
 /// ```text
 /// H = Q·(1 − forgetting − gain·e^(jw·lead·T)·Σ S(w·T/2 + pi·k)³·G(j(w + 2·pi·k/T)))
 /// ```
-/// T is the duration of a cell. `S(x) = sin(x)/x` describes the mean over a cell, and `S²` the
-/// linear interpolation between two cells. The sum over all integers k includes the images
-/// (aliases). Q is the filter of [`IterativeLearning`]. The certificate proves for every plant and
-/// every cycle time of the range:
+/// T is the duration of a cell. `S(x) = sin(x)/x` describes the mean over a cell, and `S²`
+/// describes the linear interpolation between two cells. The sum over all integers k includes the
+/// images (aliases). Q is the filter of [`IterativeLearning`]. For every plant and every cycle time
+/// in the range, the certificate proves:
 /// - The loop without learning control is stable, by zero exclusion as in
 ///   [`ObserverStability`](super::ObserverStability).
 /// - `|H| <= factor` at every frequency from the frequency of the cycle to the Nyquist frequency of
@@ -41,34 +41,34 @@ const MOST_HALVINGS: u32 = 80;
 /// - With a PI controller, `|H| < 1` between zero and the frequency of the cycle.
 ///
 /// The proof bisects regions until interval arithmetic, rounded outwards, shows the inequality. For
-/// the images, `|G|` is at most its bound above the Nyquist frequency of the cells, and the sum of
-/// their factors is at most `0.32·|sin(w·T/2)|³`.
+/// the images, the proof replaces `|G|` by its upper bound above the Nyquist frequency of the
+/// cells. The sum of the factors of the images is at most `0.32·|sin(w·T/2)|³`.
 ///
 /// The error therefore converges to its limit e* from any initial value. *Proof.* In units of
 /// cells, the learned feed-forward is `z⁻ⁿ·H` times its value n cells earlier, plus external
-/// inputs. This operator is causal, because `lead + half_width + 1 < n`, and as stable as the loop.
-/// Its magnitude is below 1 on the unit circle, and therefore everywhere outside the circle. Hence
-/// `1 − z⁻ⁿ·H` has no zero there. For a PI controller without forgetting, the magnitude is 1 at
-/// `z = 1`. There, the learned mean and the integral of the controller are interchangeable, and the
-/// output shows neither of the two. ∎
+/// inputs. This operator is causal, because `lead + half_width + 1 < n`. It is stable, because the
+/// loop is stable. Its magnitude is below 1 on the unit circle, and therefore everywhere outside
+/// the circle. Hence `1 − z⁻ⁿ·H` has no zero there. For a PI controller without forgetting, the
+/// magnitude is 1 at `z = 1`. There, the learned mean and the integral of the controller are
+/// interchangeable, and an exchange between them does not change the output. ∎
 ///
 /// From cycle to cycle, the amplitude of a sinusoid in `e − e*` is multiplied by about |H|. The
-/// factor is exact if the change of a cycle has settled before the next cycle. At the harmonics, e*
-/// is zero if forgetting is zero and Q is one. If Q is small, e* may be *larger* than the error
-/// without learning control.
+/// factor is exact if the response to a change in one cycle settles before the next cycle. At the
+/// harmonics, e* is zero if forgetting is zero and Q is one. If Q is small, e* may be *larger* than
+/// the error without learning control.
 ///
 /// Further assumptions:
 /// - the cycle time is constant, and the phase advances at a constant rate;
 /// - the plant has this form;
 /// - there are many samples per cell;
-/// - friction and load repeat, or they are bounded disturbances (which learning control cannot
-///   remove, and of which a part returns one cycle later);
+/// - friction and load repeat in every cycle, or they are bounded disturbances (learning control
+///   cannot remove these, and repeats a part of them one cycle later);
 /// - neither the command nor a learned value saturates, and no sample is bad.
 ///
-/// **The range of the slope f covers each slope of a hysteresis separately.** It does not cover a
-/// slope that changes along the path.
+/// **The certificate covers every constant slope f in the range.** It does not cover a slope that
+/// changes along the path, as the slope of a hysteresis does.
 ///
-/// If no proof is found, the cause may be the limit on the number of regions.
+/// The search for a proof may also fail because the number of regions is limited.
 ///
 /// Source: D. Bristow, M. Tharayil, A. Alleyne, "A survey of iterative learning control", *IEEE
 /// Control Systems Magazine* 26(3), 2006, frequency-domain condition for monotonic convergence.

@@ -7,7 +7,7 @@
 //! | [`Rms`] | as published, continuous time | root mean square of e |
 //! | [`PeakContinuous`] | as published, continuous time, bounded estimates | limsup of \|e\| |
 //! | [`PeakSampled`] | first order, sampled, bounded estimates | \|e\| for all time (the box theorem) |
-//! | [`PeakRounded`] | first order, sampled, bounded estimates, every rounding of the shipped step | \|e\| for all time |
+//! | [`PeakRounded`] | first order, sampled, bounded estimates, every rounding error of the shipped step | \|e\| for all time |
 //! | [`RmsSampled`] | first order, sampled, bounded estimates | root mean square of e |
 //! | [`PerStep`] | first order, sampled, bounded estimates | V from step to step |
 //!
@@ -23,7 +23,7 @@
 //! user must check. The documentation of each type lists all assumptions.
 //!
 //! **The bound of Theorem 1 is correct but vacuous.** With the gains of Table 2, alpha = 0.5 and
-//! Delta = 7 N·m, the bound is 1138 N·m, but the measured error is 0.3 N·m rms.
+//! Delta = 7 N·m, the bound is 1138 N·m. The measured error is 0.3 N·m rms.
 //!
 //! # Corrections to the paper
 //! - (35)-(38) hold only as limits superior, or for all time if V is initially below phi/theta. The
@@ -31,8 +31,8 @@
 //! - Delta = 7 N·m is kappa_eta, not the bound on `D_h = kappa_eta·eta + d + T0`. With
 //!   `|eta| <= 1` the bound is `kappa_eta + |T0| + |d|`: 7.056 N·m for the first parameter set
 //!   without d.
-//! - The constant 0.2785 is W(1/e) = 0.27846 and applies to `tanh`. For the clamped sign, the
-//!   constant is 1/4.
+//! - The constant 0.2785 applies to `tanh` and is W(1/e) = 0.27846, where W is the Lambert
+//!   function. For the clamped sign function, the constant is 1/4.
 //! - Remark 1 (less leakage gives a smaller error) is true for the RMS certificate, but false for
 //!   delta, which grows without bound as the leakage tends to zero.
 //! - The text refers to "control laws (26), (30)", which should be (19) and (23).

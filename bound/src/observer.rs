@@ -17,16 +17,16 @@ use bowden::{Error, Real};
 /// ```
 /// lies in the closed right half-plane. The cancelled factor `(L·s + 1)·(tau·s + 1)²` has no zero
 /// there. `D = s²/wn² + 2·zeta·s/wn + 1` is the denominator of the nominal plant, and
-/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` that of the plant. For a P controller, both terms
-/// are divided by s.
+/// `D~ = f·s²/wn² + (f·2·zeta/wn + c/K)·s + 1` is the denominator of the plant. For a P controller,
+/// both terms are divided by s.
 ///
 /// *Proof.* For the nominal plant and `L = 0`, `F = (tau·s + 1)²·(s·D + alpha·(k_p·s + k_i))`,
-/// whose zeros are in the left half-plane by Routh's criterion. From there, the plant and L move
-/// along a straight line to a plant of the range and to the latency of the observer. The plant then
-/// moves to any other plant of the range. In the right half-plane with `|s| >= r`, the first term
-/// of F is the larger term along the whole path. A zero could therefore cross only the imaginary
-/// axis below r. On this part of the axis, interval arithmetic on bisected regions, rounded
-/// outwards, shows that F is not zero (zero exclusion). ∎
+/// whose zeros are in the left half-plane by Routh's criterion. From there, the plant and L are
+/// varied along a straight line to a plant of the range and to the latency of the observer. The
+/// plant is then varied to any other plant of the range. In the right half-plane with `|s| >= r`,
+/// the first term of F is the larger term along the whole path. A zero could therefore cross only
+/// the imaginary axis below r. On this part of the axis, interval arithmetic on bisected regions,
+/// rounded outwards, shows that F is not zero (zero exclusion). ∎
 ///
 /// For single plants, the proved limit and the true stability limit agree to within a few per cent
 /// (test `bound`). The proof may fail for a stable loop that is near the stability limit, or if the
@@ -41,9 +41,9 @@ use bowden::{Error, Real};
 /// - friction and load are bounded disturbances;
 /// - the sine and cosine of libm have an error of less than 1e-12.
 ///
-/// The range of f covers each slope of a hysteresis separately, but not a slope that changes along
-/// the path. No range can contain a cable whose output falls while its input rises (f negative),
-/// because the loop oscillates with such a cable.
+/// The certificate covers every constant slope f in the range. It does not cover a slope that
+/// changes along the path, as the slope of a hysteresis does. No range can contain a cable whose
+/// output falls while its input rises (f negative), because the loop oscillates with such a cable.
 ///
 /// Source: J. Ackermann, *Robust Control: Systems with Uncertain Physical Parameters*, 1993 (zero
 /// exclusion).
@@ -81,7 +81,7 @@ pub struct ObserverStability {
     pub boxes: u32,
 }
 
-/// The common numbers of all plants.
+/// The numbers that all plants share.
 struct Loop {
     k_p: f64,
     k_i: f64,
@@ -151,7 +151,7 @@ impl ObserverStability {
     }
 }
 
-/// k_p and k_i of a P or PI.
+/// k_p and k_i of a P or PI controller.
 pub(super) fn proportional_and_integral<T: Real>(
     law: &PidSettings<T>,
 ) -> Result<(f64, f64), Error> {
@@ -162,9 +162,9 @@ pub(super) fn proportional_and_integral<T: Real>(
 }
 
 impl Loop {
-    /// A frequency r so that for all `|s| >= r` on the right the first term of F is the greater
-    /// one, for all plants on the path from the first one. Both are divided by `|s|⁵`; then one
-    /// falls and the other grows with `1/|s|`.
+    /// A frequency r above which the first term of F is the larger term. This holds at all
+    /// `|s| >= r` in the right half-plane, for all plants on the path from the first plant. Both
+    /// terms are divided by `|s|⁵`. Then one term decreases and the other increases with `1/|s|`.
     fn highest(&self, first: &Plants, all: &Plants) -> Option<f64> {
         let hull = first.hull(all);
         let (curvature, rate) = hull.denominator();
@@ -192,12 +192,12 @@ impl Loop {
 }
 
 impl Closed for Loop {
-    /// Far below 1/tau F hardly changes.
+    /// At frequencies far below 1/tau, F hardly changes.
     fn scale(&self) -> f64 {
         0.1 / self.filter
     }
 
-    /// A region that contains all values of F at these frequencies; of F/s for a P.
+    /// A region that contains all values of F at these frequencies, or of F/s for a P controller.
     fn values(&self, w: Span, plants: &Plants) -> Plane {
         let (one, two) = (Span::at(1.0), Span::at(2.0));
         let square = w.square();

@@ -15,7 +15,7 @@ use bowden::{Error, Real};
 /// z' = s - lambda·z
 /// ```
 ///
-/// In the box `|s| <= S`, `|z| <= S/lambda`, the worst corner is the corner where z drives s
+/// In the box `|s| <= S`, `|z| <= S/lambda`, the worst case is the corner at which z drives s
 /// outwards. The box is therefore invariant and attractive for `S = sup |w|/(g·kappa)`. Here kappa
 /// is `k + 1/lambda²` if `g <= lambda²/(1 + lambda²)`, otherwise `k - 1/lambda² + 2·(1/g - 1)`.
 /// Then `|e| <= |s| + lambda·|z| <= 2·S`.
@@ -56,7 +56,7 @@ impl<T: Real> PeakContinuous<T> {
     /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption, or if no bound exists because the
     /// bounds on the estimates are too wide or k is too small.
     pub fn try_new<const N: usize>(

@@ -72,7 +72,8 @@ pub struct Known<T> {
     pub rate: T,
 }
 
-/// Known ranges of the plant and its task: the input of every certificate.
+/// Known ranges of the plant, its disturbance and its reference. They are the input of every
+/// certificate.
 ///
 /// ```
 /// use bowden_bound::{Interval, Plant};
@@ -95,7 +96,7 @@ pub struct Plant<T, const N: usize> {
     /// Bound on the rate of D \[N·m/s\], for sampled certificates only.
     ///
     /// For the hysteresis, this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|`. Here
-    /// `f = rho·max(1, 2·sigma)` is the largest slope of eta over tau_i, and
+    /// `f = rho·max(1, 2·sigma)` is the largest slope of eta versus tau_i, and
     /// `tau_i' = y'/(B - kappa_eta·f)` in the worst case. For example, the rate is 45.7 N·m/s for
     /// the first set of Nguyen et al. (2018) with sigma = 1/2, if y follows the reference of the
     /// paper (`|y_r'| <= 22.24 N·m/s`).
@@ -123,7 +124,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         }
     }
 
-    /// Rejects numbers that cannot describe a plant.
+    /// Rejects values that cannot describe a plant.
     pub(super) fn check(&self) -> Result<(), Error> {
         ordered(&self.alpha, "alpha")?;
         if self.alpha.low <= T::zero() {

@@ -55,7 +55,7 @@ impl Plants {
         (self.slope * slow.square(), self.slope * rate + self.joint)
     }
 
-    /// Two halves, along the number that moves F most, and the size of this move.
+    /// The two halves along the parameter that changes F most, and the size of this change.
     pub(super) fn halves(&self, frequency: f64) -> (f64, [Self; 2]) {
         let share = |span: Span| span.width() / span.middle().abs();
         let sizes = [
@@ -69,8 +69,8 @@ impl Plants {
         self.largest(sizes)
     }
 
-    /// Two halves along the number whose size is the largest, and that size; in the order of the
-    /// numbers of a [`PlantRange`], the joint before the slope and the latency at the end.
+    /// The two halves along the parameter with the largest size, and that size. The order is that
+    /// of the fields of [`PlantRange`].
     pub(super) fn largest(&self, sizes: [f64; 6]) -> (f64, [Self; 2]) {
         let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
         let [gain, natural_frequency, damping_ratio, joint, slope, _] = sizes.map(|x| x >= most);
@@ -103,7 +103,7 @@ impl Plants {
         holds && (k_i == 0.0 || (integral.low > 0.0 && margin.low > 0.0))
     }
 
-    /// The plant in the middle.
+    /// The plant in the middle of the range.
     pub(super) fn middle(&self) -> Self {
         let middle = |span: Span| Span::at(span.middle());
         Self {
@@ -117,7 +117,7 @@ impl Plants {
         }
     }
 
-    /// These plants, others, and all between.
+    /// These plants, the other plants, and all plants between them.
     pub(super) fn hull(&self, other: &Self) -> Self {
         let hull = |a: Span, b: Span| Span {
             low: a.low.min(b.low),

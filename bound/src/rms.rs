@@ -5,7 +5,7 @@ use super::{Certificate, Interval, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
-/// Halvings of the search for the target: more than an f64 can distinguish.
+/// Number of bisections in the search for the target: more than an `f64` can distinguish.
 const NARROWINGS: u32 = 90;
 
 /// Root mean square of the error over a long time.
@@ -56,7 +56,8 @@ pub struct Rms<T> {
     /// W·epsilon.
     smoothing: T,
     delta: T,
-    /// Without its true value, which is the target. `None` if delta_hat is constant.
+    /// Adaptation of delta_hat, without its true value, which is the target. `None` if delta_hat is
+    /// constant.
     adapting: Option<Adapting<T>>,
 }
 
@@ -64,7 +65,7 @@ impl<T: Real> Rms<T> {
     /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

@@ -57,7 +57,8 @@ pub struct RmsSampled<T> {
     step: T,
     /// Largest weight of an estimate in V, `1 + h·sigma`; at least 2, which covers s and z.
     weight: T,
-    /// Without its true value, which is the target. `None` if delta_hat is constant.
+    /// Adaptation of delta_hat, without its true value, which is the target. `None` if delta_hat is
+    /// constant.
     adapting: Option<Adapting<T>>,
 }
 

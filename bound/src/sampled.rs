@@ -26,10 +26,10 @@ use bowden::{Error, Real};
 /// disturbance reaches more than 0.99·S (test `bound`).
 ///
 /// Further assumptions:
-/// - the plant (11) has no dynamics, and y belongs to u of the previous sample;
+/// - the plant (11) has no dynamics, and y is the response to u of the previous sample;
 /// - alpha and theta are constant and lie in the given intervals;
-/// - D, y_r and x and their rates are within the given limits;
-/// - the next reference is the true one;
+/// - D, y_r, x and their rates are within the given limits;
+/// - the next reference that the controller receives is correct;
 /// - no command limit and no slew-rate limit is active.
 ///
 /// The true values need not lie within the bounds on the estimates.
@@ -73,7 +73,7 @@ impl<T: Real> PeakSampled<T> {
     /// The certificate of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption, or if no bound exists because the
     /// bounds on the estimates are too wide.
     pub fn try_new<const N: usize>(

@@ -24,7 +24,8 @@ impl Span {
         Self { low: x, high: x }
     }
 
-    /// From one number to another, in either order, widened by the rounding error of each.
+    /// The interval between two numbers in either order, widened by the rounding error of each
+    /// number.
     pub(super) fn outward(a: f64, b: f64) -> Self {
         if a.is_nan() || b.is_nan() {
             return Self::ALL;
@@ -161,8 +162,8 @@ impl Plane {
         }
     }
 
-    /// Whether it lies on one side of a line through zero: the line across its middle, or an
-    /// axis.
+    /// Whether the box lies on one side of a line through zero. The line is perpendicular to the
+    /// direction of the middle of the box, or it is an axis.
     pub(super) fn is_off_zero(self) -> bool {
         let towards = Self {
             re: Span::at(self.re.middle()),

@@ -49,7 +49,7 @@ impl<T: Real> Theorem1<T> {
     /// The constants of an adaptive law with a plant.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant;
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the invalid part of the plant.
     /// [`Error::Inadmissible`] with the violated assumption.
     pub fn try_new<const N: usize>(
         law: &Adaptive<T, N>,

@@ -8,7 +8,7 @@ use bowden::{Error, Real};
 /// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
 ///
 /// The proof of [`Theorem1`](super::Theorem1) leaves three constants free: the weight c in
-/// `V = s²/2 + c·z²/2 + ...`, a target T of delta_hat of at most Delta, and a rate theta below
+/// `V = s²/2 + c·z²/2 + ...`, a target T of delta_hat with `T <= Delta`, and a rate theta below
 /// 2·lambda and twice the slowest leakage. Then `V' <= -theta·V + phi`, where phi is the sum of
 ///
 /// - `sum w_p·sigma_p²·(p* - p0)²/(4·m_p·(sigma_p - theta/2))` from the leakages, with T instead of
@@ -18,7 +18,7 @@ use bowden::{Error, Real};
 ///   `a = k·lambda - theta/2 - (c - 1)²/(4·c·(lambda - theta/2))` is positive.
 ///
 /// Therefore `|e| <= sqrt((1 + lambda²/c)·2·phi/theta)`, since `e = s - lambda·z`. With c = 1, T =
-/// Delta and theta equal to the slowest leakage, this is (34)-(38) except for the factor
+/// Delta and theta equal to the slowest leakage, this bound equals (34)-(38) except for the factor
 /// `(1 + lambda)`. For Table 2, the largest term is the leakage of beta_hat, which does not depend
 /// on this choice.
 ///
@@ -51,14 +51,14 @@ pub struct Tightest<T> {
 struct Problem<'a, T, const N: usize> {
     law: &'a Adaptive<T, N>,
     plant: &'a Plant<T, N>,
-    /// Without its true value, which is the target.
+    /// Adaptation of delta_hat, without its true value, which is the target.
     delta: Option<Adapting<T>>,
     targets: Interval<T>,
     /// Smallest leakage of an estimate in V \[1/s\].
     slowest: T,
 }
 
-/// Rounds of each search: each round reduces the interval to two thirds.
+/// Number of rounds in each search. Each round reduces the interval to two thirds.
 const NARROWINGS: u32 = 36;
 
 impl<T: Real> Tightest<T> {
@@ -221,7 +221,8 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
     }
 }
 
-/// The minimum of a function that falls and then rises; any place is valid.
+/// The argument at which a function that falls and then rises is smallest. Any argument gives a
+/// valid bound.
 fn narrowed<T: Real>(
     mut low: T,
     mut high: T,

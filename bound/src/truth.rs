@@ -16,7 +16,7 @@ pub(super) struct Adapting<T> {
 }
 
 impl<T: Real> Adapting<T> {
-    /// `(p* - prior)²` at worst.
+    /// Largest `(p* - prior)²`.
     pub(super) fn distance_squared(&self) -> T {
         let distance = self.truth.max_distance_from(self.prior);
         distance * distance
@@ -33,7 +33,7 @@ impl<T: Real> Adapting<T> {
         self.leakage.rate() * self.distance_squared() / (T::from_f64(4.0) * self.gain)
     }
 
-    /// `(p* - p_hat)²/(2·m)` at the start, at worst.
+    /// Largest initial `(p* - p_hat)²/(2·m)`.
     pub(super) fn at_start(&self) -> T {
         let distance = self.truth.max_distance_from(self.initial);
         distance * distance / (T::from_f64(2.0) * self.gain)
@@ -98,8 +98,9 @@ pub(super) fn adapting<T: Real>(
 
 /// Sum of `of` over beta, weighted by alpha, and the thetas.
 ///
-/// Each is the worst case over the plant's intervals. With beta* = 1/alpha the value for beta
-/// is `alpha·(1/alpha - p)²` up to a factor: convex in alpha, so the worst case is at an end.
+/// Each term is the worst case over the intervals of the plant. With beta* = 1/alpha, the term of
+/// beta is proportional to `alpha·(1/alpha - p)²`. This expression is convex in alpha, so the worst
+/// case is at an end of the interval.
 pub(super) fn sum<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,

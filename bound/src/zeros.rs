@@ -4,13 +4,13 @@ use super::halving::Halving;
 use super::plants::Plants;
 use super::span::{Plane, Span};
 
-/// Most regions of a proof: about a tenth of a second on a computer.
+/// Maximum number of regions in a proof. A proof takes about a tenth of a second on a computer.
 const MOST_BOXES: u32 = 400_000;
 
-/// Most halvings of a region.
+/// Maximum number of bisections of a region.
 const MOST_HALVINGS: u32 = 60;
 
-/// A closed loop, of which no zero may lie on the imaginary axis.
+/// A closed loop whose function must not have a zero on the imaginary axis.
 pub(super) trait Closed {
     /// A region that contains all values of its function at these frequencies.
     fn values(&self, frequency: Span, plants: &Plants) -> Plane;
@@ -59,7 +59,8 @@ enum Set {
     All(Plants),
 }
 
-/// Two halves: of the frequencies, or along the number of the plants that moves the function most.
+/// The two halves of the frequencies, or of the plants along the parameter that changes the
+/// function most.
 fn halves((frequency, set): &(Span, Set), scale: f64) -> [(Span, Set); 2] {
     let (size, halves) = match set {
         Set::Way(part) => (part.width(), part.halves().map(Set::Way)),

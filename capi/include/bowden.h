@@ -53,67 +53,67 @@
 // Maximum number of regressors in an adaptive law.
 #define BOWDEN_REGRESSORS 4
 
-// Size in 64-bit words.
+// Size of bowden_adaptive_f32 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F32_WORDS 56
 
-// Size in 64-bit words.
+// Size of bowden_adaptive_f64 in 64-bit words.
 #define BOWDEN_ADAPTIVE_F64_WORDS 104
 
-// Maximum number of ranges of a compensator.
+// Maximum number of ranges in a compensator.
 #define BOWDEN_RANGES 17
 
 // Value of `source` in a range: the input of the transmission.
 #define BOWDEN_SOURCE_INPUT 4294967295
 
-// Size in 64-bit words.
+// Size of bowden_compensator_f32 in 64-bit words.
 #define BOWDEN_COMPENSATOR_F32_WORDS 184
 
-// Size in 64-bit words.
+// Size of bowden_compensator_f64 in 64-bit words.
 #define BOWDEN_COMPENSATOR_F64_WORDS 360
 
-// Size in 64-bit words.
+// Size of bowden_edge_velocity_f32 in 64-bit words.
 #define BOWDEN_EDGE_VELOCITY_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_edge_velocity_f64 in 64-bit words.
 #define BOWDEN_EDGE_VELOCITY_F64_WORDS 13
 
-// Size in 64-bit words.
+// Size of bowden_low_pass_f32 in 64-bit words.
 #define BOWDEN_LOW_PASS_F32_WORDS 4
 
-// Size in 64-bit words.
+// Size of bowden_low_pass_f64 in 64-bit words.
 #define BOWDEN_LOW_PASS_F64_WORDS 6
 
-// Size in 64-bit words.
+// Size of bowden_biquad_f32 in 64-bit words.
 #define BOWDEN_BIQUAD_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_biquad_f64 in 64-bit words.
 #define BOWDEN_BIQUAD_F64_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_hysteresis_f32 in 64-bit words.
 #define BOWDEN_HYSTERESIS_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_hysteresis_f64 in 64-bit words.
 #define BOWDEN_HYSTERESIS_F64_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_cable_f32 in 64-bit words.
 #define BOWDEN_CABLE_F32_WORDS 10
 
-// Size in 64-bit words.
+// Size of bowden_cable_f64 in 64-bit words.
 #define BOWDEN_CABLE_F64_WORDS 20
 
-// Size in 64-bit words.
+// Size of bowden_inverse_f32 in 64-bit words.
 #define BOWDEN_INVERSE_F32_WORDS 10
 
-// Size in 64-bit words.
+// Size of bowden_inverse_f64 in 64-bit words.
 #define BOWDEN_INVERSE_F64_WORDS 20
 
 // Maximum number of cells in a cycle.
 #define BOWDEN_CELLS 65535
 
-// Size in 64-bit words.
+// Size of bowden_iterative_learning_f32 in 64-bit words.
 #define BOWDEN_ITERATIVE_LEARNING_F32_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_iterative_learning_f64 in 64-bit words.
 #define BOWDEN_ITERATIVE_LEARNING_F64_WORDS 18
 
 // Maximum number of terms in a model.
@@ -125,50 +125,50 @@
 // Maximum size of a model, in bytes. No model with BOWDEN_TERMS terms exceeds this limit.
 #define BOWDEN_MODEL_BYTES 2048
 
-// Size in 64-bit words.
+// Size of bowden_model_f32 in 64-bit words.
 #define BOWDEN_MODEL_F32_WORDS 112
 
-// Size in 64-bit words.
+// Size of bowden_model_f64 in 64-bit words.
 #define BOWDEN_MODEL_F64_WORDS 216
 
-// Size in 64-bit words.
+// Size of bowden_observer_f32 in 64-bit words.
 #define BOWDEN_OBSERVER_F32_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_observer_f64 in 64-bit words.
 #define BOWDEN_OBSERVER_F64_WORDS 25
 
-// Value of `after` in a fallback that holds the last good command indefinitely. Use it in a
-// simulation, not on a machine.
+// Value of `after` in a fallback that holds the last good command indefinitely. Use this value in
+// a simulation, not on a machine.
 #define BOWDEN_HOLD_FOR_EVER 4294967295
 
-// Size in 64-bit words.
+// Size of bowden_pid_f32 in 64-bit words.
 #define BOWDEN_PID_F32_WORDS 24
 
-// Size in 64-bit words.
+// Size of bowden_pid_f64 in 64-bit words.
 #define BOWDEN_PID_F64_WORDS 40
 
-// Size in 64-bit words.
+// Size of bowden_plausible_f32 in 64-bit words.
 #define BOWDEN_PLAUSIBLE_F32_WORDS 8
 
-// Size in 64-bit words.
+// Size of bowden_plausible_f64 in 64-bit words.
 #define BOWDEN_PLAUSIBLE_F64_WORDS 14
 
-// Size in 64-bit words.
+// Size of bowden_play_f32 in 64-bit words.
 #define BOWDEN_PLAY_F32_WORDS 4
 
-// Size in 64-bit words.
+// Size of bowden_play_f64 in 64-bit words.
 #define BOWDEN_PLAY_F64_WORDS 6
 
-// Size in 64-bit words.
+// Size of bowden_rates_f32 in 64-bit words.
 #define BOWDEN_RATES_F32_WORDS 10
 
-// Size in 64-bit words.
+// Size of bowden_rates_f64 in 64-bit words.
 #define BOWDEN_RATES_F64_WORDS 16
 
-// Size in 64-bit words.
+// Size of bowden_relay_f32 in 64-bit words.
 #define BOWDEN_RELAY_F32_WORDS 26
 
-// Size in 64-bit words.
+// Size of bowden_relay_f64 in 64-bit words.
 #define BOWDEN_RELAY_F64_WORDS 44
 
 // Result of a function. Zero: success. Positive: the output was written, but the sample was bad or
@@ -181,18 +181,19 @@ enum bowden_result
     // Success. For a step: a good sample.
     BOWDEN_RESULT_OK = 0,
     // A good sample, but velocity and acceleration started from zero less than five time constants
-    // ago, or the position has changed fewer than two times.
+    // ago, or the position has not yet changed twice.
     BOWDEN_RESULT_SETTLING = 1,
-    // A good position after an unknown time. Velocity and acceleration are held.
+    // A good position, but the time since the last good one is unknown. Velocity and acceleration
+    // are held.
     BOWDEN_RESULT_RESUMED = 2,
-    // Adaptive law: the term of a bad regressor was omitted, and the estimates do not change.
+    // Adaptive law: the term of a bad regressor was omitted, and the estimates did not change.
     // Iterative learning: the error of this sample, or of the cell before a jump, was ignored.
     BOWDEN_RESULT_DEGRADED = 3,
     // A bad sample. The state is unchanged, and the last good command or value is held.
     BOWDEN_RESULT_HELD = 4,
     // Too many bad samples. The safe command is applied until the fault is acknowledged.
     BOWDEN_RESULT_SAFE = 5,
-    // No count for longer than the longest gap, so the velocity is zero.
+    // There was no count for longer than the longest gap, so the velocity is zero.
     BOWDEN_RESULT_STOPPED = 6,
     // The sample is implausible, so the value is NaN.
     BOWDEN_RESULT_IMPLAUSIBLE = 7,
@@ -208,12 +209,12 @@ enum bowden_result
     BOWDEN_RESULT_ERROR_OUT_OF_RANGE = -5,
     // The settings or arguments together violate a condition.
     BOWDEN_RESULT_ERROR_INADMISSIBLE = -6,
-    // There are too many items.
+    // There are too many items, such as channels or cells.
     BOWDEN_RESULT_ERROR_CAPACITY = -7,
     // A setting has a value that is not in its enum.
     BOWDEN_RESULT_ERROR_CHOICE = -8,
-    // The bytes of a model are damaged or surplus, they have the other precision or another
-    // version, or the model has too many terms.
+    // The bytes of a model are damaged or too many, or the model is of the other precision or of
+    // another version, or has too many terms.
     BOWDEN_RESULT_ERROR_MODEL = -9,
     // The settings were not initialised with their macro NAME_INIT.
     BOWDEN_RESULT_ERROR_SETTINGS = -10,
@@ -256,7 +257,7 @@ enum bowden_fault
     BOWDEN_FAULT_OVERFLOW = 10,
     // The position.
     BOWDEN_FAULT_POSITION = 11,
-    // A fault that a later version adds.
+    // Reserved for faults that a later version adds.
     BOWDEN_FAULT_OTHER = 12,
     // The phase of the cycle is outside 0 to 1, or it has jumped.
     BOWDEN_FAULT_PHASE = 13,
@@ -285,7 +286,7 @@ enum bowden_implausible
     BOWDEN_IMPLAUSIBLE_TOO_FAST = 3,
     // The sample has kept the same value for too long while the machine moved.
     BOWDEN_IMPLAUSIBLE_STUCK = 4,
-    // A reason that a later version adds.
+    // Reserved for reasons that a later version adds.
     BOWDEN_IMPLAUSIBLE_OTHER = 5,
 };
 #ifndef __cplusplus
@@ -325,18 +326,19 @@ enum bowden_relay_failure
  {
     // The experiment has not failed.
     BOWDEN_RELAY_FAILURE_NONE = 0,
-    // There were too many bad samples. `fault` is the fault of the last one.
+    // There were too many bad samples. `fault` describes the last one.
     BOWDEN_RELAY_FAILURE_BAD_SAMPLES = 1,
     // The distance of the output from the reference exceeded `most_deviation`. Choose a smaller
     // amplitude, a centre that holds the reference, or the other sign of the amplitude.
     BOWDEN_RELAY_FAILURE_OUTPUT_OUT_OF_RANGE = 2,
-    // There was no complete cycle within `longest_time`. The amplitude does not move the output
-    // through the reference, its sign is wrong, or the time is too short for two periods.
+    // There was no complete cycle within `longest_time`. Possible causes: the amplitude is too
+    // small to move the output through the reference, its sign is wrong, or the time is too short
+    // for two periods.
     BOWDEN_RELAY_FAILURE_NO_OSCILLATION = 3,
-    // The cycles did not agree within `longest_time`. The time is too short, the noise exceeds the
-    // hysteresis, or a cycle has fewer than 2/agreement samples.
+    // The cycles did not agree within `longest_time`. Possible causes: the time is too short, the
+    // noise exceeds the hysteresis, or a cycle has fewer than 2/agreement samples.
     BOWDEN_RELAY_FAILURE_TIME_OUT = 4,
-    // A reason that a later version adds.
+    // Reserved for reasons that a later version adds.
     BOWDEN_RELAY_FAILURE_OTHER = 5,
 };
 #ifndef __cplusplus
@@ -373,12 +375,12 @@ enum bowden_anti_windup
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     // The integral changes only until the command reaches the end of its range. A change away from
-    // this limit acts in full.
+    // this limit is not restricted.
     BOWDEN_ANTI_WINDUP_CONDITIONAL = 0,
     // No anti-windup: the integral winds up.
     BOWDEN_ANTI_WINDUP_NONE = 1,
-    // The integral term stays within the command range. This range is widened to include zero and
-    // the value at which the command reaches its limit.
+    // The integral term stays within the command range. For this purpose, the range is widened to
+    // include zero and the integral term at which the command reaches its limit.
     BOWDEN_ANTI_WINDUP_CLAMP = 2,
     // The part of the command that the limits cut off is fed back to the integral with the time
     // constant `tracking_time`.
@@ -392,7 +394,7 @@ typedef uint32_t bowden_anti_windup;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Input and output quantities.
+// Input and output quantities of a transmission.
 enum bowden_mode
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -417,9 +419,9 @@ enum bowden_form
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // For a plant with inertia: (23) as published, with a filtered difference of the error.
+    // For a plant with inertia: (23) as published. The error rate is a filtered difference.
     BOWDEN_FORM_AS_PUBLISHED = 0,
-    // For a plant that responds within one sample: the law solved for the error rate.
+    // For a plant that responds within one sample: the adaptive law solved for the error rate.
     BOWDEN_FORM_FIRST_ORDER = 1,
 };
 #ifndef __cplusplus
@@ -438,7 +440,8 @@ enum bowden_smooth_sign
  {
     // tanh(x), as in the paper.
     BOWDEN_SMOOTH_SIGN_TANH = 0,
-    // x clamped to [-1, 1]: cheaper than tanh, with a smaller residual x*(1 - T(x)).
+    // x clamped to [-1, 1]. This function is cheaper than tanh, and the maximum of x*(1 - T(x)) is
+    // smaller.
     BOWDEN_SMOOTH_SIGN_CLAMP = 1,
 };
 #ifndef __cplusplus
@@ -459,8 +462,8 @@ enum bowden_leakage
     BOWDEN_LEAKAGE_NONE = 0,
     // Constant leakage at `leakage_rate`, the sigma of (24)-(26).
     BOWDEN_LEAKAGE_CONSTANT = 1,
-    // Leakage only beyond `leakage_bound` from the prior. The leakage reaches `leakage_rate` at
-    // twice this distance.
+    // Leakage only if the distance from the prior exceeds `leakage_bound`. The leakage rate
+    // reaches `leakage_rate` at twice this distance.
     BOWDEN_LEAKAGE_SWITCHING = 2,
 };
 #ifndef __cplusplus
@@ -512,7 +515,7 @@ typedef uint32_t bowden_saturation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Tuning rule for PI gains from the ultimate gain and period.
+// Tuning rule that computes PI gains from the ultimate gain and the ultimate period.
 enum bowden_pi_rule
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -537,10 +540,10 @@ typedef struct bowden_adaptive_f32 {
     uint64_t opaque[BOWDEN_ADAPTIVE_F32_WORDS];
 } bowden_adaptive_f32;
 
-// Settings of one estimate in (24)-(26).
+// Settings of one estimate of the adaptive law, (24)-(26).
 //
-// The macro of the adaptive law also initialises its estimates. By itself, the macro
-// of an estimate fixes the estimate at 0, with a gain of 0 and no leakage.
+// The macro of the adaptive law also initialises its estimates. The macro of this
+// struct fixes the estimate at 0, with zero gain and no leakage.
 typedef struct bowden_estimator_f32 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
@@ -552,14 +555,15 @@ typedef struct bowden_estimator_f32 {
     float high;
     // Adaptation gain gamma, mu or mu_i of (24)-(26), not negative.
     float gain;
-    // Prior [unit of the estimate], the target of the leakage; 0 in the paper.
+    // Prior [unit of the estimate]: the value towards which the estimate leaks; 0 in
+    // the paper.
     float prior;
     // Leakage method, one of bowden_leakage.
     uint32_t leakage;
-    // Largest leakage [1/s], not negative.
+    // Largest leakage rate [1/s], not negative.
     float leakage_rate;
-    // Distance from the prior without leakage [unit of the estimate], positive. Only
-    // BOWDEN_LEAKAGE_SWITCHING uses it.
+    // Distance from the prior within which the estimate does not leak [unit of the
+    // estimate], positive. Only BOWDEN_LEAKAGE_SWITCHING uses this field.
     float leakage_bound;
 } bowden_estimator_f32;
 
@@ -641,11 +645,10 @@ typedef struct bowden_adaptive_settings_f32 {
     struct bowden_estimator_f32 delta;
     // Number of regressors, at most BOWDEN_REGRESSORS.
     uint32_t regressors;
-    // Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries with
-    // an index of `regressors` or more are ignored.
+    // Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries from
+    // index `regressors` onward are ignored.
     struct bowden_estimator_f32 theta[BOWDEN_REGRESSORS];
-    // Response of each regressor to a value that is not finite, one of
-    // bowden_on_missing.
+    // Response to a non-finite value of each regressor, one of bowden_on_missing.
     uint32_t missing[BOWDEN_REGRESSORS];
     // Largest magnitude of the accumulated error z [N*m*s], positive.
     float z_limit;
@@ -686,7 +689,7 @@ typedef struct bowden_adaptive_settings_f32 {
     {0u, 4u, 0.0f} /* fallback */ \
 }
 
-// Name of the rejected setting, or the violated condition.
+// Name of the rejected setting, or violated condition.
 typedef struct bowden_about {
     // NUL-terminated ASCII text, such as "k_p" or "low < high", truncated to 127 characters.
     char text[128];
@@ -694,7 +697,7 @@ typedef struct bowden_about {
 
 // One sample for the adaptive law.
 typedef struct bowden_adaptive_sample_f32 {
-    // Time since the last call [s], even if that sample was bad.
+    // Time since the previous call [s], even if the sample of that call was bad.
     float dt;
     // Reference y_r [N*m].
     float reference;
@@ -703,8 +706,8 @@ typedef struct bowden_adaptive_sample_f32 {
     float next_reference;
     // Measured output torque y [N*m].
     float measured;
-    // Regressors x_i [their own units]; in the paper, velocity and acceleration.
-    // Entries beyond the number of regressors in the settings are ignored.
+    // Regressors x_i [own units], such as velocity and acceleration. Entries beyond
+    // the number of regressors in the settings are ignored.
     float regressors[BOWDEN_REGRESSORS];
     // Feed-forward [command unit], added to the command of the adaptive law.
     float feed_forward;
@@ -740,10 +743,10 @@ typedef struct bowden_adaptive_f64 {
     uint64_t opaque[BOWDEN_ADAPTIVE_F64_WORDS];
 } bowden_adaptive_f64;
 
-// Settings of one estimate in (24)-(26).
+// Settings of one estimate of the adaptive law, (24)-(26).
 //
-// The macro of the adaptive law also initialises its estimates. By itself, the macro
-// of an estimate fixes the estimate at 0, with a gain of 0 and no leakage.
+// The macro of the adaptive law also initialises its estimates. The macro of this
+// struct fixes the estimate at 0, with zero gain and no leakage.
 typedef struct bowden_estimator_f64 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
@@ -755,14 +758,15 @@ typedef struct bowden_estimator_f64 {
     double high;
     // Adaptation gain gamma, mu or mu_i of (24)-(26), not negative.
     double gain;
-    // Prior [unit of the estimate], the target of the leakage; 0 in the paper.
+    // Prior [unit of the estimate]: the value towards which the estimate leaks; 0 in
+    // the paper.
     double prior;
     // Leakage method, one of bowden_leakage.
     uint32_t leakage;
-    // Largest leakage [1/s], not negative.
+    // Largest leakage rate [1/s], not negative.
     double leakage_rate;
-    // Distance from the prior without leakage [unit of the estimate], positive. Only
-    // BOWDEN_LEAKAGE_SWITCHING uses it.
+    // Distance from the prior within which the estimate does not leak [unit of the
+    // estimate], positive. Only BOWDEN_LEAKAGE_SWITCHING uses this field.
     double leakage_bound;
 } bowden_estimator_f64;
 
@@ -844,11 +848,10 @@ typedef struct bowden_adaptive_settings_f64 {
     struct bowden_estimator_f64 delta;
     // Number of regressors, at most BOWDEN_REGRESSORS.
     uint32_t regressors;
-    // Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries with
-    // an index of `regressors` or more are ignored.
+    // Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries from
+    // index `regressors` onward are ignored.
     struct bowden_estimator_f64 theta[BOWDEN_REGRESSORS];
-    // Response of each regressor to a value that is not finite, one of
-    // bowden_on_missing.
+    // Response to a non-finite value of each regressor, one of bowden_on_missing.
     uint32_t missing[BOWDEN_REGRESSORS];
     // Largest magnitude of the accumulated error z [N*m*s], positive.
     double z_limit;
@@ -891,7 +894,7 @@ typedef struct bowden_adaptive_settings_f64 {
 
 // One sample for the adaptive law.
 typedef struct bowden_adaptive_sample_f64 {
-    // Time since the last call [s], even if that sample was bad.
+    // Time since the previous call [s], even if the sample of that call was bad.
     double dt;
     // Reference y_r [N*m].
     double reference;
@@ -900,8 +903,8 @@ typedef struct bowden_adaptive_sample_f64 {
     double next_reference;
     // Measured output torque y [N*m].
     double measured;
-    // Regressors x_i [their own units]; in the paper, velocity and acceleration.
-    // Entries beyond the number of regressors in the settings are ignored.
+    // Regressors x_i [own units], such as velocity and acceleration. Entries beyond
+    // the number of regressors in the settings are ignored.
     double regressors[BOWDEN_REGRESSORS];
     // Feed-forward [command unit], added to the command of the adaptive law.
     double feed_forward;
@@ -953,14 +956,14 @@ typedef struct bowden_motion_f32 {
     float acceleration;
 } bowden_motion_f32;
 
-// Range of one source in the bench record. The effects do not extrapolate beyond this
-// range.
+// Range of one source in the bench record. The effects are not extrapolated beyond
+// this range.
 typedef struct bowden_range_f32 {
     // Channel index, from 0, or BOWDEN_SOURCE_INPUT.
     uint32_t source;
-    // Minimum of position, velocity and acceleration.
+    // Minima of position, velocity and acceleration.
     struct bowden_motion_f32 low;
-    // Maximum of position, velocity and acceleration.
+    // Maxima of position, velocity and acceleration.
     struct bowden_motion_f32 high;
 } bowden_range_f32;
 
@@ -971,8 +974,8 @@ typedef struct bowden_compensator_sample_f32 {
     // Desired output [output unit], such as tau_o [N*m]. Use the reference, not the
     // measured output.
     float desired;
-    // Present input of the transmission with its velocity and acceleration, for
-    // effects that read it.
+    // Current input of the transmission with its velocity and acceleration. Only
+    // effects that depend on the input use it.
     struct bowden_motion_f32 input;
     // Transmitted load: tau_i in torque mode, otherwise a load channel.
     float load;
@@ -989,7 +992,7 @@ typedef struct bowden_compensator_output_f32 {
     float command;
     // Contribution of the effects to the output [output unit]; zero for a bad sample.
     float effects;
-    // Hysteresis state of the model, within -1 and 1.
+    // Hysteresis state of the model, from -1 to 1.
     float eta;
     // Return value of the step.
     bowden_result result;
@@ -1021,14 +1024,14 @@ typedef struct bowden_motion_f64 {
     double acceleration;
 } bowden_motion_f64;
 
-// Range of one source in the bench record. The effects do not extrapolate beyond this
-// range.
+// Range of one source in the bench record. The effects are not extrapolated beyond
+// this range.
 typedef struct bowden_range_f64 {
     // Channel index, from 0, or BOWDEN_SOURCE_INPUT.
     uint32_t source;
-    // Minimum of position, velocity and acceleration.
+    // Minima of position, velocity and acceleration.
     struct bowden_motion_f64 low;
-    // Maximum of position, velocity and acceleration.
+    // Maxima of position, velocity and acceleration.
     struct bowden_motion_f64 high;
 } bowden_range_f64;
 
@@ -1039,8 +1042,8 @@ typedef struct bowden_compensator_sample_f64 {
     // Desired output [output unit], such as tau_o [N*m]. Use the reference, not the
     // measured output.
     double desired;
-    // Present input of the transmission with its velocity and acceleration, for
-    // effects that read it.
+    // Current input of the transmission with its velocity and acceleration. Only
+    // effects that depend on the input use it.
     struct bowden_motion_f64 input;
     // Transmitted load: tau_i in torque mode, otherwise a load channel.
     double load;
@@ -1057,7 +1060,7 @@ typedef struct bowden_compensator_output_f64 {
     double command;
     // Contribution of the effects to the output [output unit]; zero for a bad sample.
     double effects;
-    // Hysteresis state of the model, within -1 and 1.
+    // Hysteresis state of the model, from -1 to 1.
     double eta;
     // Return value of the step.
     bowden_result result;
@@ -1082,13 +1085,13 @@ typedef struct bowden_edge_velocity_settings_f32 {
     // Size of one count [channel unit], positive. Positions change by multiples of
     // this size.
     float count;
-    // Averaging time for counts at shorter intervals [s], positive.
+    // Time constant [s], positive, of the average over counts at shorter intervals.
     float time_constant;
     // Time without a count [s], positive, after which the velocity is zero. A speed
-    // below count/longest_gap therefore reads as zero.
+    // below count/longest_gap is therefore reported as zero.
     float longest_gap;
-    // Period [channel unit] of a position that wraps, such as a counter; 0 if the
-    // position does not wrap.
+    // Period [channel unit] of a position that wraps, such as a counter reading; 0 if
+    // the position does not wrap.
     float period;
 } bowden_edge_velocity_settings_f32;
 
@@ -1128,13 +1131,13 @@ typedef struct bowden_edge_velocity_settings_f64 {
     // Size of one count [channel unit], positive. Positions change by multiples of
     // this size.
     double count;
-    // Averaging time for counts at shorter intervals [s], positive.
+    // Time constant [s], positive, of the average over counts at shorter intervals.
     double time_constant;
     // Time without a count [s], positive, after which the velocity is zero. A speed
-    // below count/longest_gap therefore reads as zero.
+    // below count/longest_gap is therefore reported as zero.
     double longest_gap;
-    // Period [channel unit] of a position that wraps, such as a counter; 0 if the
-    // position does not wrap.
+    // Period [channel unit] of a position that wraps, such as a counter reading; 0 if
+    // the position does not wrap.
     double period;
 } bowden_edge_velocity_settings_f64;
 
@@ -1182,8 +1185,8 @@ typedef struct bowden_biquad_f32 {
 typedef struct bowden_biquad_settings_f32 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
-    // Corner of the low-pass or centre of the notch [Hz], positive and below
-    // 1/(2*sample_time).
+    // Corner frequency of the low-pass filter or centre frequency of the notch filter
+    // [Hz], positive and below 1/(2*sample_time).
     float frequency;
     // Quality factor, positive. Low-pass: 0.7071 for Butterworth, 0.5 for critical
     // damping. Notch: the width at -3 dB is frequency/q [Hz].
@@ -1225,8 +1228,8 @@ typedef struct bowden_biquad_f64 {
 typedef struct bowden_biquad_settings_f64 {
     // Initialisation mark, set by NAME_INIT.
     uint32_t init_mark;
-    // Corner of the low-pass or centre of the notch [Hz], positive and below
-    // 1/(2*sample_time).
+    // Corner frequency of the low-pass filter or centre frequency of the notch filter
+    // [Hz], positive and below 1/(2*sample_time).
     double frequency;
     // Quality factor, positive. Low-pass: 0.7071 for Butterworth, 0.5 for critical
     // damping. Notch: the width at -3 dB is frequency/q [Hz].
@@ -1245,13 +1248,13 @@ typedef struct bowden_biquad_settings_f64 {
     0.0 /* sample_time */ \
 }
 
-// Hysteresis, equations (2) and (7), with its state.
+// Hysteresis model, equations (2) and (7), with its state.
 typedef struct bowden_hysteresis_f32 {
     // Private; do not use.
     uint64_t opaque[BOWDEN_HYSTERESIS_F32_WORDS];
 } bowden_hysteresis_f32;
 
-// Settings of a hysteresis, equations (2) and (7).
+// Settings of a hysteresis model, equations (2) and (7).
 //
 // By default `eta` is 0. You must set all other fields.
 typedef struct bowden_hysteresis_settings_f32 {
@@ -1263,7 +1266,7 @@ typedef struct bowden_hysteresis_settings_f32 {
     float sigma;
     // n, at least 1: sharpness of the knee.
     float n;
-    // Initial hysteresis state, within -1 and 1; 0 if unknown.
+    // Initial hysteresis state, from -1 to 1; 0 if unknown.
     float eta;
 } bowden_hysteresis_settings_f32;
 
@@ -1304,7 +1307,7 @@ typedef struct bowden_cable_settings_f32 {
     float sigma;
     // n, at least 1: sharpness of the knee.
     float n;
-    // Initial hysteresis state, within -1 and 1; 0 if unknown.
+    // Initial hysteresis state, from -1 to 1; 0 if unknown.
     float eta;
 } bowden_cable_settings_f32;
 
@@ -1329,13 +1332,13 @@ typedef struct bowden_inverse_f32 {
     uint64_t opaque[BOWDEN_INVERSE_F32_WORDS];
 } bowden_inverse_f32;
 
-// Hysteresis, equations (2) and (7), with its state.
+// Hysteresis model, equations (2) and (7), with its state.
 typedef struct bowden_hysteresis_f64 {
     // Private; do not use.
     uint64_t opaque[BOWDEN_HYSTERESIS_F64_WORDS];
 } bowden_hysteresis_f64;
 
-// Settings of a hysteresis, equations (2) and (7).
+// Settings of a hysteresis model, equations (2) and (7).
 //
 // By default `eta` is 0. You must set all other fields.
 typedef struct bowden_hysteresis_settings_f64 {
@@ -1347,7 +1350,7 @@ typedef struct bowden_hysteresis_settings_f64 {
     double sigma;
     // n, at least 1: sharpness of the knee.
     double n;
-    // Initial hysteresis state, within -1 and 1; 0 if unknown.
+    // Initial hysteresis state, from -1 to 1; 0 if unknown.
     double eta;
 } bowden_hysteresis_settings_f64;
 
@@ -1388,7 +1391,7 @@ typedef struct bowden_cable_settings_f64 {
     double sigma;
     // n, at least 1: sharpness of the knee.
     double n;
-    // Initial hysteresis state, within -1 and 1; 0 if unknown.
+    // Initial hysteresis state, from -1 to 1; 0 if unknown.
     double eta;
 } bowden_cable_settings_f64;
 
@@ -1421,8 +1424,9 @@ typedef struct bowden_iterative_learning_f32 {
     uint64_t opaque[BOWDEN_ITERATIVE_LEARNING_F32_WORDS];
 } bowden_iterative_learning_f32;
 
-// Settings of iterative learning control. A cycle consists of cells of equal phase. e
-// is the mean of reference - measured over a cell, and w(k) is a triangle of area 1:
+// Settings of iterative learning control. A cycle is divided into cells of equal width
+// in phase. e is the mean of reference - measured over a cell, and w(k) are triangular
+// weights with a sum of 1. In each cycle, the learned values become
 //
 //     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
 //     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
@@ -1440,7 +1444,7 @@ typedef struct bowden_iterative_learning_settings_f32 {
     float forgetting;
     // Number of cells between a command and its effect.
     uint16_t lead;
-    // Half-width of the triangle [cells]; 0 disables the filter.
+    // Half-width of the triangular filter [cells]; 0 disables the filter.
     uint16_t half_width;
 } bowden_iterative_learning_settings_f32;
 
@@ -1474,8 +1478,9 @@ typedef struct bowden_iterative_learning_f64 {
     uint64_t opaque[BOWDEN_ITERATIVE_LEARNING_F64_WORDS];
 } bowden_iterative_learning_f64;
 
-// Settings of iterative learning control. A cycle consists of cells of equal phase. e
-// is the mean of reference - measured over a cell, and w(k) is a triangle of area 1:
+// Settings of iterative learning control. A cycle is divided into cells of equal width
+// in phase. e is the mean of reference - measured over a cell, and w(k) are triangular
+// weights with a sum of 1. In each cycle, the learned values become
 //
 //     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
 //     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
@@ -1493,7 +1498,7 @@ typedef struct bowden_iterative_learning_settings_f64 {
     double forgetting;
     // Number of cells between a command and its effect.
     uint16_t lead;
-    // Half-width of the triangle [cells]; 0 disables the filter.
+    // Half-width of the triangular filter [cells]; 0 disables the filter.
     uint16_t half_width;
 } bowden_iterative_learning_settings_f64;
 
@@ -1559,8 +1564,8 @@ typedef struct bowden_observer_f32 {
 //
 //     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
 //
-// For a motor with inertia J and damping c against a stiffness K, wn = sqrt(K/J) and
-// zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
+// For a motor with inertia J and damping c that drives a stiffness K, wn = sqrt(K/J)
+// and zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
 //
 // By default `latency` is 0. You must set all other fields.
 typedef struct bowden_observer_settings_f32 {
@@ -1578,7 +1583,7 @@ typedef struct bowden_observer_settings_f32 {
     float limit;
     // Longest dt of a good sample [s], positive.
     float longest_dt;
-    // Delay [s] from a command to the measured output, without the response of the
+    // Delay [s] from a command to the measured output, excluding the response of the
     // nominal plant; at least 0.
     float latency;
 } bowden_observer_settings_f32;
@@ -1617,8 +1622,8 @@ typedef struct bowden_observer_f64 {
 //
 //     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
 //
-// For a motor with inertia J and damping c against a stiffness K, wn = sqrt(K/J) and
-// zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
+// For a motor with inertia J and damping c that drives a stiffness K, wn = sqrt(K/J)
+// and zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
 //
 // By default `latency` is 0. You must set all other fields.
 typedef struct bowden_observer_settings_f64 {
@@ -1636,7 +1641,7 @@ typedef struct bowden_observer_settings_f64 {
     double limit;
     // Longest dt of a good sample [s], positive.
     double longest_dt;
-    // Delay [s] from a command to the measured output, without the response of the
+    // Delay [s] from a command to the measured output, excluding the response of the
     // nominal plant; at least 0.
     double latency;
 } bowden_observer_settings_f64;
@@ -1702,12 +1707,12 @@ typedef struct bowden_pid_settings_f32 {
     // this limit.
     float integral_limit;
     // Deadband [output unit], at least 0: the integral is frozen while |e| is at most
-    // this value. A deadband wider than the output jump prevents hunting due to static
-    // friction.
+    // this value. Static friction can make the output jump past the reference again
+    // and again (hunting). A deadband wider than this jump prevents hunting.
     float deadband;
     // Period of an output that wraps [output unit], such as 360 degrees; 0 if the
-    // output does not wrap. Errors and changes are measured along the shorter way
-    // round. A period requires b = 1, and a c of 0 or 1.
+    // output does not wrap. Errors and changes are taken in the shorter direction. A
+    // period requires b = 1, and c = 0 or c = 1.
     float period;
     // Range and slew-rate limit of the command.
     struct bowden_limits_f32 limits;
@@ -1747,13 +1752,13 @@ typedef struct bowden_pid_f32 {
 
 // One sample for a PI, PID or PIV controller.
 typedef struct bowden_pid_sample_f32 {
-    // Time since the last call [s], even if that sample was bad.
+    // Time since the previous call [s], even if the sample of that call was bad.
     float dt;
     // Reference y_r [output unit], such as [N*m].
     float reference;
     // Measured output y [output unit], such as [N*m].
     float measured;
-    // Measured distal velocity [rad/s]. Only a PIV uses it.
+    // Measured distal velocity [rad/s]. Only a PIV controller uses this field.
     float velocity;
     // Feed-forward [command unit], added to the command before the limits.
     float feed_forward;
@@ -1768,16 +1773,16 @@ typedef struct bowden_pid_terms_f32 {
     float proportional;
     // -k_i*integral(e) after anti-windup [command unit].
     float integral;
-    // -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV.
+    // -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV controller.
     float derivative;
-    // -k_d*v_d [command unit]; 0 for a PI or PID.
+    // -k_d*v_d [command unit]; 0 for a PI or PID controller.
     float velocity;
     // Feed-forward [command unit].
     float feed_forward;
     // Command before limiting [command unit].
     float unlimited;
-    // 1 if the applied command differs from `unlimited`, otherwise 0. Causes are the
-    // range, the slew-rate limit, the safe command and bowden_pid_applied.
+    // 1 if the applied command differs from `unlimited`, otherwise 0. Possible causes
+    // are the range, the slew-rate limit, the safe command and bowden_pid_applied.
     uint32_t saturated;
 } bowden_pid_terms_f32;
 
@@ -1818,12 +1823,12 @@ typedef struct bowden_pid_settings_f64 {
     // this limit.
     double integral_limit;
     // Deadband [output unit], at least 0: the integral is frozen while |e| is at most
-    // this value. A deadband wider than the output jump prevents hunting due to static
-    // friction.
+    // this value. Static friction can make the output jump past the reference again
+    // and again (hunting). A deadband wider than this jump prevents hunting.
     double deadband;
     // Period of an output that wraps [output unit], such as 360 degrees; 0 if the
-    // output does not wrap. Errors and changes are measured along the shorter way
-    // round. A period requires b = 1, and a c of 0 or 1.
+    // output does not wrap. Errors and changes are taken in the shorter direction. A
+    // period requires b = 1, and c = 0 or c = 1.
     double period;
     // Range and slew-rate limit of the command.
     struct bowden_limits_f64 limits;
@@ -1863,13 +1868,13 @@ typedef struct bowden_pid_f64 {
 
 // One sample for a PI, PID or PIV controller.
 typedef struct bowden_pid_sample_f64 {
-    // Time since the last call [s], even if that sample was bad.
+    // Time since the previous call [s], even if the sample of that call was bad.
     double dt;
     // Reference y_r [output unit], such as [N*m].
     double reference;
     // Measured output y [output unit], such as [N*m].
     double measured;
-    // Measured distal velocity [rad/s]. Only a PIV uses it.
+    // Measured distal velocity [rad/s]. Only a PIV controller uses this field.
     double velocity;
     // Feed-forward [command unit], added to the command before the limits.
     double feed_forward;
@@ -1884,16 +1889,16 @@ typedef struct bowden_pid_terms_f64 {
     double proportional;
     // -k_i*integral(e) after anti-windup [command unit].
     double integral;
-    // -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV.
+    // -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV controller.
     double derivative;
-    // -k_d*v_d [command unit]; 0 for a PI or PID.
+    // -k_d*v_d [command unit]; 0 for a PI or PID controller.
     double velocity;
     // Feed-forward [command unit].
     double feed_forward;
     // Command before limiting [command unit].
     double unlimited;
-    // 1 if the applied command differs from `unlimited`, otherwise 0. Causes are the
-    // range, the slew-rate limit, the safe command and bowden_pid_applied.
+    // 1 if the applied command differs from `unlimited`, otherwise 0. Possible causes
+    // are the range, the slew-rate limit, the safe command and bowden_pid_applied.
     uint32_t saturated;
 } bowden_pid_terms_f64;
 
@@ -1917,14 +1922,15 @@ typedef struct bowden_plausible_settings_f32 {
     // check. Do not check the rate of an angle that wraps.
     float rate;
     // Longest time between two readings of the sensor [s], including jitter; 0 if
-    // unknown. A repeated reading is then treated as at most this old. This setting
-    // has no effect without a rate.
+    // unknown. If it is known, a repeated reading is assumed to be at most this old.
+    // This setting has no effect without `rate`.
     float sample_period;
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
     // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
     // This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
-    // With 0, the time after a negative or non-finite dt is unknown.
+    // With 0, no dt is replaced, and the time after a negative or non-finite dt is
+    // unknown.
     float longest_dt;
 } bowden_plausible_settings_f32;
 
@@ -1972,14 +1978,15 @@ typedef struct bowden_plausible_settings_f64 {
     // check. Do not check the rate of an angle that wraps.
     double rate;
     // Longest time between two readings of the sensor [s], including jitter; 0 if
-    // unknown. A repeated reading is then treated as at most this old. This setting
-    // has no effect without a rate.
+    // unknown. If it is known, a repeated reading is assumed to be at most this old.
+    // This setting has no effect without `rate`.
     double sample_period;
     // Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
     // check. The check counts repetitions only while the machine moves.
     uint32_t stuck_after;
     // This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
-    // With 0, the time after a negative or non-finite dt is unknown.
+    // With 0, no dt is replaced, and the time after a negative or non-finite dt is
+    // unknown.
     double longest_dt;
 } bowden_plausible_settings_f64;
 
@@ -2025,8 +2032,9 @@ typedef struct bowden_rates_f32 {
     uint64_t opaque[BOWDEN_RATES_F32_WORDS];
 } bowden_rates_f32;
 
-// Settings of the velocity and acceleration estimates. Both lags have the same time
-// constant (see bowden_rates_step).
+// Settings of the velocity and acceleration estimates. Velocity and acceleration are
+// filtered by two first-order lags with the same time constant (see
+// bowden_rates_step).
 //
 // By default the position does not wrap, and `longest_gap` is ten time constants. You
 // must set `time_constant`.
@@ -2035,8 +2043,8 @@ typedef struct bowden_rates_settings_f32 {
     uint32_t init_mark;
     // Time constant of both lags [s], positive.
     float time_constant;
-    // Period [channel unit] of a position that wraps, such as a counter; 0 if the
-    // position does not wrap.
+    // Period [channel unit] of a position that wraps, such as a counter reading; 0 if
+    // the position does not wrap.
     float period;
     // Longest gap between two good samples that the estimates bridge [s]; 0 means ten
     // time constants.
@@ -2070,8 +2078,9 @@ typedef struct bowden_rates_f64 {
     uint64_t opaque[BOWDEN_RATES_F64_WORDS];
 } bowden_rates_f64;
 
-// Settings of the velocity and acceleration estimates. Both lags have the same time
-// constant (see bowden_rates_step).
+// Settings of the velocity and acceleration estimates. Velocity and acceleration are
+// filtered by two first-order lags with the same time constant (see
+// bowden_rates_step).
 //
 // By default the position does not wrap, and `longest_gap` is ten time constants. You
 // must set `time_constant`.
@@ -2080,8 +2089,8 @@ typedef struct bowden_rates_settings_f64 {
     uint32_t init_mark;
     // Time constant of both lags [s], positive.
     double time_constant;
-    // Period [channel unit] of a position that wraps, such as a counter; 0 if the
-    // position does not wrap.
+    // Period [channel unit] of a position that wraps, such as a counter reading; 0 if
+    // the position does not wrap.
     double period;
     // Longest gap between two good samples that the estimates bridge [s]; 0 means ten
     // time constants.
@@ -2134,13 +2143,13 @@ typedef struct bowden_relay_settings_f32 {
     // Distance from the centre to each level [command unit], nonzero, with the sign of
     // the plant gain.
     float amplitude;
-    // Hysteresis of the relay [output unit], at least 0. It must be at least the peak
-    // of the noise.
+    // Hysteresis of the relay [output unit], at least 0. Choose at least the peak
+    // value of the measurement noise.
     float hysteresis;
     // Largest distance of the output from the reference [output unit], above
-    // `hysteresis`. One sample beyond this distance ends the experiment.
+    // `hysteresis`. A single sample beyond this distance ends the experiment.
     float most_deviation;
-    // Number of consecutive cycles in the average, at least 2.
+    // Number of consecutive cycles that are averaged, at least 2.
     uint32_t cycles;
     // Largest relative deviation of a cycle from the mean of earlier cycles, above 0
     // and below 1.
@@ -2175,8 +2184,7 @@ typedef struct bowden_relay_settings_f32 {
 
 // Result of a relay experiment.
 typedef struct bowden_ultimate_f32 {
-    // Ultimate gain [command unit/output unit], with the sign of the amplitude of the
-    // relay.
+    // Ultimate gain [command unit/output unit], with the sign of the relay amplitude.
     float gain;
     // Ultimate period [s].
     float period;
@@ -2237,13 +2245,13 @@ typedef struct bowden_relay_settings_f64 {
     // Distance from the centre to each level [command unit], nonzero, with the sign of
     // the plant gain.
     double amplitude;
-    // Hysteresis of the relay [output unit], at least 0. It must be at least the peak
-    // of the noise.
+    // Hysteresis of the relay [output unit], at least 0. Choose at least the peak
+    // value of the measurement noise.
     double hysteresis;
     // Largest distance of the output from the reference [output unit], above
-    // `hysteresis`. One sample beyond this distance ends the experiment.
+    // `hysteresis`. A single sample beyond this distance ends the experiment.
     double most_deviation;
-    // Number of consecutive cycles in the average, at least 2.
+    // Number of consecutive cycles that are averaged, at least 2.
     uint32_t cycles;
     // Largest relative deviation of a cycle from the mean of earlier cycles, above 0
     // and below 1.
@@ -2278,8 +2286,7 @@ typedef struct bowden_relay_settings_f64 {
 
 // Result of a relay experiment.
 typedef struct bowden_ultimate_f64 {
-    // Ultimate gain [command unit/output unit], with the sign of the amplitude of the
-    // relay.
+    // Ultimate gain [command unit/output unit], with the sign of the relay amplitude.
     double gain;
     // Ultimate period [s].
     double period;
@@ -2321,7 +2328,7 @@ extern "C" {
 
 // Checks the settings and initialises the law with the initial estimates.
 //
-// `about` may be null; otherwise it receives the name of a rejected setting.
+// If `about` is not null, it receives the name of a rejected setting.
 bowden_result bowden_adaptive_init_f32(struct bowden_adaptive_f32 *law,
                                        const struct bowden_adaptive_settings_f32 *settings,
                                        struct bowden_about *about);
@@ -2338,11 +2345,10 @@ bowden_result bowden_adaptive_get_estimates_f32(const struct bowden_adaptive_f32
 
 // Reports the command [command unit] that the drive applied after the last step; see
 // bowden_pid_applied. At the next good sample, z moves no further towards the limit of
-// the drive. The estimates then do not change if s requires more than this limit
-// allows.
+// the drive. The estimates do not change while s requires a command beyond this limit.
 bowden_result bowden_adaptive_applied_f32(struct bowden_adaptive_f32 *law, float command);
 
-// Reports the limit at which the drive was after the last step; see
+// Reports the limit that the drive reached after the last step; see
 // bowden_pid_at_limit.
 bowden_result bowden_adaptive_at_limit_f32(struct bowden_adaptive_f32 *law, uint32_t saturation);
 
@@ -2379,7 +2385,7 @@ bowden_result bowden_adaptive_is_latched_f32(const struct bowden_adaptive_f32 *l
 
 // Checks the settings and initialises the law with the initial estimates.
 //
-// `about` may be null; otherwise it receives the name of a rejected setting.
+// If `about` is not null, it receives the name of a rejected setting.
 bowden_result bowden_adaptive_init_f64(struct bowden_adaptive_f64 *law,
                                        const struct bowden_adaptive_settings_f64 *settings,
                                        struct bowden_about *about);
@@ -2396,11 +2402,10 @@ bowden_result bowden_adaptive_get_estimates_f64(const struct bowden_adaptive_f64
 
 // Reports the command [command unit] that the drive applied after the last step; see
 // bowden_pid_applied. At the next good sample, z moves no further towards the limit of
-// the drive. The estimates then do not change if s requires more than this limit
-// allows.
+// the drive. The estimates do not change while s requires a command beyond this limit.
 bowden_result bowden_adaptive_applied_f64(struct bowden_adaptive_f64 *law, double command);
 
-// Reports the limit at which the drive was after the last step; see
+// Reports the limit that the drive reached after the last step; see
 // bowden_pid_at_limit.
 bowden_result bowden_adaptive_at_limit_f64(struct bowden_adaptive_f64 *law, uint32_t saturation);
 
@@ -2435,16 +2440,17 @@ bowden_result bowden_adaptive_resume_f64(struct bowden_adaptive_f64 *law,
 bowden_result bowden_adaptive_is_latched_f64(const struct bowden_adaptive_f64 *law,
                                              uint32_t *latched);
 
-// Inverts a loaded model and initialises the state at zero:
+// Inverts a loaded model and initialises the state to zero. Each step then computes
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
-// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
-// A term of the model must read the source of each range, except BOWDEN_SOURCE_INPUT.
-// `ranges` may be null if `range_count` is 0. `about` may be null. The compensator
-// does not use the model afterwards.
+// A dt longer than `longest_dt` [s] is a bad sample. Positions, velocities and
+// accelerations are clamped to `ranges`. The source of each range must be
+// BOWDEN_SOURCE_INPUT or a channel that a term of the model reads. `ranges` may be
+// null if `range_count` is 0. `about` may be null. After the call, the compensator no
+// longer needs the model.
 //
-// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
+// If the model has no inverse, the result is BOWDEN_RESULT_ERROR_INADMISSIBLE.
 bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compensator,
                                           const struct bowden_model_f32 *model,
                                           float longest_dt,
@@ -2453,12 +2459,13 @@ bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compens
                                           struct bowden_about *about);
 
 // Applies a play to the desired torque of the cable. `half_width` [output unit] is at
-// least 0; 0, the default, disables the play.
+// least 0. The default, 0, disables the play.
 //
-// A term that reads a velocity from encoder counts makes the desired torque reverse at
-// each count. The inverse is steep after a reversal, so the command chatters. A
-// half-width slightly above |gain|*count/(2*time constant), half of one count's effect
-// on the torque, removes these reversals.
+// If a term reads a velocity that is computed from encoder counts, the desired torque
+// of the cable reverses at each count. The inverse is steep after a reversal, so the
+// command chatters. To remove these reversals, choose a half-width slightly above
+// |gain|*count/(2*time constant). This value is half of one count's effect on the
+// torque.
 bowden_result bowden_compensator_set_play_f32(struct bowden_compensator_f32 *compensator,
                                               float half_width,
                                               struct bowden_about *about);
@@ -2475,31 +2482,32 @@ bowden_result bowden_compensator_step_f32(struct bowden_compensator_f32 *compens
 // differs from the command of the step.
 //
 // Call this function between two steps, for example if the drive is off or another
-// controller adds a command. The hysteresis then follows this input. Only the last
-// report after a step is used. A command that is not finite changes nothing
-// (BOWDEN_RESULT_HELD).
+// controller adds a command. The hysteresis then follows this input. If there are
+// several reports after a step, only the last one is used. A command that is not
+// finite changes nothing (BOWDEN_RESULT_HELD).
 bowden_result bowden_compensator_applied_f32(struct bowden_compensator_f32 *compensator,
                                              float command);
 
-// Reports the limit at which the drive was after the last step; see
-// bowden_pid_at_limit. The input of the model then does not rise at the upper limit
-// and does not fall at the lower limit.
+// Reports the limit that the drive reached after the last step; see
+// bowden_pid_at_limit. The input of the model then does not rise if this limit is the
+// upper one, and does not fall if it is the lower one.
 bowden_result bowden_compensator_at_limit_f32(struct bowden_compensator_f32 *compensator,
                                               uint32_t saturation);
 
-// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
+// Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
 bowden_result bowden_compensator_reset_f32(struct bowden_compensator_f32 *compensator, float eta);
 
-// Inverts a loaded model and initialises the state at zero:
+// Inverts a loaded model and initialises the state to zero. Each step then computes
 //
 //     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
 //
-// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
-// A term of the model must read the source of each range, except BOWDEN_SOURCE_INPUT.
-// `ranges` may be null if `range_count` is 0. `about` may be null. The compensator
-// does not use the model afterwards.
+// A dt longer than `longest_dt` [s] is a bad sample. Positions, velocities and
+// accelerations are clamped to `ranges`. The source of each range must be
+// BOWDEN_SOURCE_INPUT or a channel that a term of the model reads. `ranges` may be
+// null if `range_count` is 0. `about` may be null. After the call, the compensator no
+// longer needs the model.
 //
-// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
+// If the model has no inverse, the result is BOWDEN_RESULT_ERROR_INADMISSIBLE.
 bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compensator,
                                           const struct bowden_model_f64 *model,
                                           double longest_dt,
@@ -2508,12 +2516,13 @@ bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compens
                                           struct bowden_about *about);
 
 // Applies a play to the desired torque of the cable. `half_width` [output unit] is at
-// least 0; 0, the default, disables the play.
+// least 0. The default, 0, disables the play.
 //
-// A term that reads a velocity from encoder counts makes the desired torque reverse at
-// each count. The inverse is steep after a reversal, so the command chatters. A
-// half-width slightly above |gain|*count/(2*time constant), half of one count's effect
-// on the torque, removes these reversals.
+// If a term reads a velocity that is computed from encoder counts, the desired torque
+// of the cable reverses at each count. The inverse is steep after a reversal, so the
+// command chatters. To remove these reversals, choose a half-width slightly above
+// |gain|*count/(2*time constant). This value is half of one count's effect on the
+// torque.
 bowden_result bowden_compensator_set_play_f64(struct bowden_compensator_f64 *compensator,
                                               double half_width,
                                               struct bowden_about *about);
@@ -2530,19 +2539,19 @@ bowden_result bowden_compensator_step_f64(struct bowden_compensator_f64 *compens
 // differs from the command of the step.
 //
 // Call this function between two steps, for example if the drive is off or another
-// controller adds a command. The hysteresis then follows this input. Only the last
-// report after a step is used. A command that is not finite changes nothing
-// (BOWDEN_RESULT_HELD).
+// controller adds a command. The hysteresis then follows this input. If there are
+// several reports after a step, only the last one is used. A command that is not
+// finite changes nothing (BOWDEN_RESULT_HELD).
 bowden_result bowden_compensator_applied_f64(struct bowden_compensator_f64 *compensator,
                                              double command);
 
-// Reports the limit at which the drive was after the last step; see
-// bowden_pid_at_limit. The input of the model then does not rise at the upper limit
-// and does not fall at the lower limit.
+// Reports the limit that the drive reached after the last step; see
+// bowden_pid_at_limit. The input of the model then does not rise if this limit is the
+// upper one, and does not fall if it is the lower one.
 bowden_result bowden_compensator_at_limit_f64(struct bowden_compensator_f64 *compensator,
                                               uint32_t saturation);
 
-// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
+// Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
 bowden_result bowden_compensator_reset_f64(struct bowden_compensator_f64 *compensator, double eta);
 
 // Checks the settings and initialises the estimator. `about` may be null.
@@ -2551,8 +2560,8 @@ bowden_result bowden_edge_velocity_init_f32(struct bowden_edge_velocity_f32 *edg
                                             struct bowden_about *about);
 
 // Computes the velocity at `position` [channel unit]. `dt` [s] is the time since the
-// last call, even if that sample was bad. M is the number of counts in the time T
-// since the last sample with a count:
+// previous call, even if the sample of that call was bad. M is the number of counts in
+// the time T since the last sample with a count:
 //
 //     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
 //     |v| <= count/(time since the last count)               at every other sample
@@ -2571,8 +2580,8 @@ bowden_result bowden_edge_velocity_init_f64(struct bowden_edge_velocity_f64 *edg
                                             struct bowden_about *about);
 
 // Computes the velocity at `position` [channel unit]. `dt` [s] is the time since the
-// last call, even if that sample was bad. M is the number of counts in the time T
-// since the last sample with a count:
+// previous call, even if the sample of that call was bad. M is the number of counts in
+// the time T since the last sample with a count:
 //
 //     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
 //     |v| <= count/(time since the last count)               at every other sample
@@ -2591,13 +2600,13 @@ bowden_result bowden_low_pass_init_f32(struct bowden_low_pass_f32 *filter,
                                        float time_constant,
                                        struct bowden_about *about);
 
-// Processes a sample x taken `dt` [s] after the last call. The output y is
+// Processes a sample x taken `dt` [s] after the previous call. The output y is
 //
 //     y+ = y + dt/(time_constant + dt)*(x - y)
 //
-// The corner frequency is 1/(2*pi*time_constant) [Hz]. The first good sample starts
-// the filter at rest. If the sample is not finite, or dt is not positive and finite,
-// the last output is held (BOWDEN_RESULT_HELD).
+// The corner frequency is 1/(2*pi*time_constant) [Hz]. At the first good sample, the
+// filter starts in steady state. If the sample is not finite, or dt is not positive
+// and finite, the last output is held (BOWDEN_RESULT_HELD).
 bowden_result bowden_low_pass_step_f32(struct bowden_low_pass_f32 *filter,
                                        float sample,
                                        float dt,
@@ -2613,11 +2622,12 @@ bowden_result bowden_biquad_init_notch_f32(struct bowden_biquad_f32 *filter,
                                            const struct bowden_biquad_settings_f32 *settings,
                                            struct bowden_about *about);
 
-// Filters a sample taken `dt` [s] after the last call. `output` receives the filtered
-// value.
+// Filters a sample taken `dt` [s] after the previous call. `output` receives the
+// filtered value.
 //
-// The first good sample starts the filter at rest. If the sample is not finite, or dt
-// is not positive and finite, the last output is held (BOWDEN_RESULT_HELD).
+// At the first good sample, the filter starts in steady state. If the sample is not
+// finite, or dt is not positive and finite, the last output is held
+// (BOWDEN_RESULT_HELD).
 bowden_result bowden_biquad_step_f32(struct bowden_biquad_f32 *filter,
                                      float sample,
                                      float dt,
@@ -2629,13 +2639,13 @@ bowden_result bowden_low_pass_init_f64(struct bowden_low_pass_f64 *filter,
                                        double time_constant,
                                        struct bowden_about *about);
 
-// Processes a sample x taken `dt` [s] after the last call. The output y is
+// Processes a sample x taken `dt` [s] after the previous call. The output y is
 //
 //     y+ = y + dt/(time_constant + dt)*(x - y)
 //
-// The corner frequency is 1/(2*pi*time_constant) [Hz]. The first good sample starts
-// the filter at rest. If the sample is not finite, or dt is not positive and finite,
-// the last output is held (BOWDEN_RESULT_HELD).
+// The corner frequency is 1/(2*pi*time_constant) [Hz]. At the first good sample, the
+// filter starts in steady state. If the sample is not finite, or dt is not positive
+// and finite, the last output is held (BOWDEN_RESULT_HELD).
 bowden_result bowden_low_pass_step_f64(struct bowden_low_pass_f64 *filter,
                                        double sample,
                                        double dt,
@@ -2651,24 +2661,25 @@ bowden_result bowden_biquad_init_notch_f64(struct bowden_biquad_f64 *filter,
                                            const struct bowden_biquad_settings_f64 *settings,
                                            struct bowden_about *about);
 
-// Filters a sample taken `dt` [s] after the last call. `output` receives the filtered
-// value.
+// Filters a sample taken `dt` [s] after the previous call. `output` receives the
+// filtered value.
 //
-// The first good sample starts the filter at rest. If the sample is not finite, or dt
-// is not positive and finite, the last output is held (BOWDEN_RESULT_HELD).
+// At the first good sample, the filter starts in steady state. If the sample is not
+// finite, or dt is not positive and finite, the last output is held
+// (BOWDEN_RESULT_HELD).
 bowden_result bowden_biquad_step_f64(struct bowden_biquad_f64 *filter,
                                      double sample,
                                      double dt,
                                      double *output);
 
-// Checks the settings and initialises a hysteresis. `about` may be null.
+// Checks the settings and initialises a hysteresis model. `about` may be null.
 bowden_result bowden_hysteresis_init_f32(struct bowden_hysteresis_f32 *hysteresis,
                                          const struct bowden_hysteresis_settings_f32 *settings,
                                          struct bowden_about *about);
 
-// Processes one input sample [input unit]. `eta` receives the hysteresis state, within
-// -1 and 1. The first sample only sets the input. If the input is not finite, the last
-// state is held (BOWDEN_RESULT_HELD).
+// Processes one input sample [input unit]. `eta` receives the hysteresis state, from
+// -1 to 1. The first sample only initialises the input. If the input is not finite,
+// the last state is held (BOWDEN_RESULT_HELD).
 bowden_result bowden_hysteresis_step_f32(struct bowden_hysteresis_f32 *hysteresis,
                                          float input,
                                          float *eta);
@@ -2685,8 +2696,9 @@ bowden_result bowden_cable_step_f32(struct bowden_cable_f32 *cable, float input,
 // Initialises the inverse of the transmission that has these parameters. `about` may
 // be null.
 //
-// There is no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is zero, or if
-// the hysteresis opposes the gain and sigma exceeds |gain|/(2*|kappa_eta|*rho).
+// The transmission has no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is
+// zero, or if the hysteresis opposes the gain and sigma exceeds
+// |gain|/(2*|kappa_eta|*rho).
 bowden_result bowden_inverse_init_f32(struct bowden_inverse_f32 *inverse,
                                       const struct bowden_cable_settings_f32 *settings,
                                       struct bowden_about *about);
@@ -2698,14 +2710,14 @@ bowden_result bowden_inverse_step_f32(struct bowden_inverse_f32 *inverse,
                                       float desired,
                                       float *input);
 
-// Checks the settings and initialises a hysteresis. `about` may be null.
+// Checks the settings and initialises a hysteresis model. `about` may be null.
 bowden_result bowden_hysteresis_init_f64(struct bowden_hysteresis_f64 *hysteresis,
                                          const struct bowden_hysteresis_settings_f64 *settings,
                                          struct bowden_about *about);
 
-// Processes one input sample [input unit]. `eta` receives the hysteresis state, within
-// -1 and 1. The first sample only sets the input. If the input is not finite, the last
-// state is held (BOWDEN_RESULT_HELD).
+// Processes one input sample [input unit]. `eta` receives the hysteresis state, from
+// -1 to 1. The first sample only initialises the input. If the input is not finite,
+// the last state is held (BOWDEN_RESULT_HELD).
 bowden_result bowden_hysteresis_step_f64(struct bowden_hysteresis_f64 *hysteresis,
                                          double input,
                                          double *eta);
@@ -2722,8 +2734,9 @@ bowden_result bowden_cable_step_f64(struct bowden_cable_f64 *cable, double input
 // Initialises the inverse of the transmission that has these parameters. `about` may
 // be null.
 //
-// There is no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is zero, or if
-// the hysteresis opposes the gain and sigma exceeds |gain|/(2*|kappa_eta|*rho).
+// The transmission has no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is
+// zero, or if the hysteresis opposes the gain and sigma exceeds
+// |gain|/(2*|kappa_eta|*rho).
 bowden_result bowden_inverse_init_f64(struct bowden_inverse_f64 *inverse,
                                       const struct bowden_cable_settings_f64 *settings,
                                       struct bowden_about *about);
@@ -2735,13 +2748,13 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
                                       double desired,
                                       double *input);
 
-// Checks the settings and initialises iterative learning with two arrays of `cells`
-// numbers, which it sets to zero. `cells` is at least lead + 2*half_width + 9 and at
-// most BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
+// Checks the settings, initialises the controller, and sets its two arrays of `cells`
+// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
+// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
 //
 // The caller owns the arrays, which must exist for as long as the object is used. The
-// caller may read `learned` between two calls. Nothing else may write to the arrays or
-// use them for another object. The arrays must not overlap each other or the object
+// caller may read `learned` between two calls. Do not write to the arrays or use them
+// for another object. The arrays must not overlap each other or the object
 // (BOWDEN_RESULT_ERROR_INADMISSIBLE). A copy of the object uses the same arrays, so
 // use only one of the two objects.
 bowden_result bowden_iterative_learning_init_f32(struct bowden_iterative_learning_f32 *learning,
@@ -2751,9 +2764,9 @@ bowden_result bowden_iterative_learning_init_f32(struct bowden_iterative_learnin
                                                  size_t cells,
                                                  struct bowden_about *about);
 
-// Like bowden_iterative_learning_init, but continues with the values in `learned`,
-// such as a copy from before a reset. The function clamps the values to the limit and
-// replaces NaN by zero. `unfiltered` may have any contents.
+// Initialises the object like bowden_iterative_learning_init, but continues with the
+// values in `learned`, such as values saved before a reset. The function clamps the
+// values to the limit and replaces NaN by zero. `unfiltered` may contain any values.
 bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learning_f32 *learning,
                                                    const struct bowden_iterative_learning_settings_f32 *settings,
                                                    float *learned,
@@ -2764,19 +2777,19 @@ bowden_result bowden_iterative_learning_resume_f32(struct bowden_iterative_learn
 // Processes one sample. Call this function before the step of the controller. `phase`
 // is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
 //
-// Set `learns` to 0 if a limit has cut the command, the safe command is applied, or
-// the task is different. If more than half of the samples in a cell have `learns` = 0,
-// the errors of the next `lead` cells are ignored too.
+// Set `learns` to 0 while the command is limited, while the safe command is applied,
+// or during a different task. If more than half of the samples in a cell have `learns`
+// = 0, the errors of the next `lead` cells are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward
-// (BOWDEN_RESULT_HELD). The controller counts such a sample as good.
+// (BOWDEN_RESULT_HELD). The feedback controller does not detect this fault.
 // BOWDEN_RESULT_DEGRADED has two causes:
 //
 // - The reference or the measured output is not finite. The feed-forward follows the
 //   phase, but nothing is learned.
 // - The phase has jumped by more than four cells. The cell before the jump does not
-//   learn. The feed-forward jumps with the phase, so give the controller a slew-rate
-//   limit.
+//   learn. The feed-forward jumps with the phase, so set a slew-rate limit in the
+//   feedback controller.
 bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learning_f32 *learning,
                                                  float phase,
                                                  float reference,
@@ -2784,13 +2797,13 @@ bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learnin
                                                  uint32_t learns,
                                                  struct bowden_iterative_learning_output_f32 *out);
 
-// Checks the settings and initialises iterative learning with two arrays of `cells`
-// numbers, which it sets to zero. `cells` is at least lead + 2*half_width + 9 and at
-// most BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
+// Checks the settings, initialises the controller, and sets its two arrays of `cells`
+// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
+// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
 //
 // The caller owns the arrays, which must exist for as long as the object is used. The
-// caller may read `learned` between two calls. Nothing else may write to the arrays or
-// use them for another object. The arrays must not overlap each other or the object
+// caller may read `learned` between two calls. Do not write to the arrays or use them
+// for another object. The arrays must not overlap each other or the object
 // (BOWDEN_RESULT_ERROR_INADMISSIBLE). A copy of the object uses the same arrays, so
 // use only one of the two objects.
 bowden_result bowden_iterative_learning_init_f64(struct bowden_iterative_learning_f64 *learning,
@@ -2800,9 +2813,9 @@ bowden_result bowden_iterative_learning_init_f64(struct bowden_iterative_learnin
                                                  size_t cells,
                                                  struct bowden_about *about);
 
-// Like bowden_iterative_learning_init, but continues with the values in `learned`,
-// such as a copy from before a reset. The function clamps the values to the limit and
-// replaces NaN by zero. `unfiltered` may have any contents.
+// Initialises the object like bowden_iterative_learning_init, but continues with the
+// values in `learned`, such as values saved before a reset. The function clamps the
+// values to the limit and replaces NaN by zero. `unfiltered` may contain any values.
 bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learning_f64 *learning,
                                                    const struct bowden_iterative_learning_settings_f64 *settings,
                                                    double *learned,
@@ -2813,19 +2826,19 @@ bowden_result bowden_iterative_learning_resume_f64(struct bowden_iterative_learn
 // Processes one sample. Call this function before the step of the controller. `phase`
 // is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
 //
-// Set `learns` to 0 if a limit has cut the command, the safe command is applied, or
-// the task is different. If more than half of the samples in a cell have `learns` = 0,
-// the errors of the next `lead` cells are ignored too.
+// Set `learns` to 0 while the command is limited, while the safe command is applied,
+// or during a different task. If more than half of the samples in a cell have `learns`
+// = 0, the errors of the next `lead` cells are ignored too.
 //
 // A phase outside 0 to 1 changes nothing and holds the feed-forward
-// (BOWDEN_RESULT_HELD). The controller counts such a sample as good.
+// (BOWDEN_RESULT_HELD). The feedback controller does not detect this fault.
 // BOWDEN_RESULT_DEGRADED has two causes:
 //
 // - The reference or the measured output is not finite. The feed-forward follows the
 //   phase, but nothing is learned.
 // - The phase has jumped by more than four cells. The cell before the jump does not
-//   learn. The feed-forward jumps with the phase, so give the controller a slew-rate
-//   limit.
+//   learn. The feed-forward jumps with the phase, so set a slew-rate limit in the
+//   feedback controller.
 bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learning_f64 *learning,
                                                  double phase,
                                                  double reference,
@@ -2834,16 +2847,16 @@ bowden_result bowden_iterative_learning_step_f64(struct bowden_iterative_learnin
                                                  struct bowden_iterative_learning_output_f64 *out);
 
 // Loads a model and initialises its state. `bowden identify --model-out FILE.postcard`
-// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. The
-// object does not use the bytes afterwards.
+// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. After
+// the call, the object no longer needs the bytes.
 //
 // `length` is the length of the model including the CRC-32, not the length of a larger
-// array or sector. `eta` is the initial hysteresis state, within -1 and 1; 0 if
-// unknown. `about` may be null. Errors:
+// array or sector. `eta` is the initial hysteresis state, from -1 to 1; 0 if unknown.
+// `about` may be null. Errors:
 //
-// - BOWDEN_RESULT_ERROR_MODEL: bytes are damaged or surplus (`about` is "checksum"),
-//   the bytes have the other precision or another version, or there are more than
-//   BOWDEN_TERMS terms.
+// - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
+//   "checksum"), or the model is of the other precision or of another version, or has
+//   more than BOWDEN_TERMS terms.
 // - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
 //   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
 bowden_result bowden_model_load_f32(struct bowden_model_f32 *model,
@@ -2863,23 +2876,23 @@ bowden_result bowden_model_step_f32(struct bowden_model_f32 *model,
                                     const struct bowden_model_sample_f32 *sample,
                                     float *output);
 
-// Writes the hysteresis state, within -1 and 1, to `eta`.
+// Writes the hysteresis state, from -1 to 1, to `eta`.
 bowden_result bowden_model_eta_f32(const struct bowden_model_f32 *model, float *eta);
 
-// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
+// Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
 bowden_result bowden_model_reset_f32(struct bowden_model_f32 *model, float eta);
 
 // Loads a model and initialises its state. `bowden identify --model-out FILE.postcard`
-// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. The
-// object does not use the bytes afterwards.
+// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. After
+// the call, the object no longer needs the bytes.
 //
 // `length` is the length of the model including the CRC-32, not the length of a larger
-// array or sector. `eta` is the initial hysteresis state, within -1 and 1; 0 if
-// unknown. `about` may be null. Errors:
+// array or sector. `eta` is the initial hysteresis state, from -1 to 1; 0 if unknown.
+// `about` may be null. Errors:
 //
-// - BOWDEN_RESULT_ERROR_MODEL: bytes are damaged or surplus (`about` is "checksum"),
-//   the bytes have the other precision or another version, or there are more than
-//   BOWDEN_TERMS terms.
+// - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
+//   "checksum"), or the model is of the other precision or of another version, or has
+//   more than BOWDEN_TERMS terms.
 // - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
 //   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
 bowden_result bowden_model_load_f64(struct bowden_model_f64 *model,
@@ -2899,10 +2912,10 @@ bowden_result bowden_model_step_f64(struct bowden_model_f64 *model,
                                     const struct bowden_model_sample_f64 *sample,
                                     double *output);
 
-// Writes the hysteresis state, within -1 and 1, to `eta`.
+// Writes the hysteresis state, from -1 to 1, to `eta`.
 bowden_result bowden_model_eta_f64(const struct bowden_model_f64 *model, double *eta);
 
-// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
+// Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
 bowden_result bowden_model_reset_f64(struct bowden_model_f64 *model, double eta);
 
 // Checks the settings and initialises an observer. `about` may be null.
@@ -2911,8 +2924,8 @@ bowden_result bowden_observer_init_f32(struct bowden_observer_f32 *observer,
                                        struct bowden_about *about);
 
 // Processes one sample. Call this function before the step of the controller. `dt` [s]
-// is the time since the last call. `sent` [command unit] is the command applied since
-// the last call, after all limits. `measured` is in [output unit].
+// is the time since the previous call. `sent` [command unit] is the command applied
+// since that call, after all limits. `measured` is in [output unit].
 //
 // A bad sample holds the estimate (BOWDEN_RESULT_HELD).
 bowden_result bowden_observer_step_f32(struct bowden_observer_f32 *observer,
@@ -2921,14 +2934,14 @@ bowden_result bowden_observer_step_f32(struct bowden_observer_f32 *observer,
                                        float measured,
                                        struct bowden_observer_output_f32 *out);
 
-// Computes the command [command unit] for which the nominal plant follows a motion.
-// `wanted` is the motion desired one latency later.
+// Computes the command [command unit] for which the output of the nominal plant
+// follows a desired motion. `wanted` is the motion desired one latency later.
 bowden_result bowden_observer_feed_forward_f32(const struct bowden_observer_f32 *observer,
                                                const struct bowden_motion_f32 *wanted,
                                                float *command);
 
-// Resets the state. Call this function after the drive was off, because a command that
-// did not reach the motor must not count.
+// Resets the state. Call this function after the drive was off. Otherwise the estimate
+// includes commands that did not reach the motor.
 bowden_result bowden_observer_reset_f32(struct bowden_observer_f32 *observer);
 
 // Checks the settings and initialises an observer. `about` may be null.
@@ -2937,8 +2950,8 @@ bowden_result bowden_observer_init_f64(struct bowden_observer_f64 *observer,
                                        struct bowden_about *about);
 
 // Processes one sample. Call this function before the step of the controller. `dt` [s]
-// is the time since the last call. `sent` [command unit] is the command applied since
-// the last call, after all limits. `measured` is in [output unit].
+// is the time since the previous call. `sent` [command unit] is the command applied
+// since that call, after all limits. `measured` is in [output unit].
 //
 // A bad sample holds the estimate (BOWDEN_RESULT_HELD).
 bowden_result bowden_observer_step_f64(struct bowden_observer_f64 *observer,
@@ -2947,22 +2960,22 @@ bowden_result bowden_observer_step_f64(struct bowden_observer_f64 *observer,
                                        double measured,
                                        struct bowden_observer_output_f64 *out);
 
-// Computes the command [command unit] for which the nominal plant follows a motion.
-// `wanted` is the motion desired one latency later.
+// Computes the command [command unit] for which the output of the nominal plant
+// follows a desired motion. `wanted` is the motion desired one latency later.
 bowden_result bowden_observer_feed_forward_f64(const struct bowden_observer_f64 *observer,
                                                const struct bowden_motion_f64 *wanted,
                                                double *command);
 
-// Resets the state. Call this function after the drive was off, because a command that
-// did not reach the motor must not count.
+// Resets the state. Call this function after the drive was off. Otherwise the estimate
+// includes commands that did not reach the motor.
 bowden_result bowden_observer_reset_f64(struct bowden_observer_f64 *observer);
 
-// Writes the settings of a PI, equation (15). All fields without an argument have
-// their defaults.
+// Writes the settings of a PI controller, equation (15). All fields without an
+// argument receive their defaults.
 //
 // `low` and `high` [command unit] are the command limits, and `longest_dt` [s] is the
-// longest dt of a good sample. `safe` [command unit] is the command from the
-// `after`-th consecutive bad sample onward. bowden_pid_init checks the values.
+// longest dt of a good sample. `safe` [command unit] is applied from the `after`-th
+// consecutive bad sample onward. bowden_pid_init checks the values.
 bowden_result bowden_pid_settings_pi_f32(struct bowden_pid_settings_f32 *settings,
                                          float k_p,
                                          float k_i,
@@ -2974,7 +2987,7 @@ bowden_result bowden_pid_settings_pi_f32(struct bowden_pid_settings_f32 *setting
 
 // Checks the settings and initialises the controller.
 //
-// `about` may be null; otherwise it receives the name of a rejected setting.
+// If `about` is not null, it receives the name of a rejected setting.
 bowden_result bowden_pid_init_f32(struct bowden_pid_f32 *pid,
                                   const struct bowden_pid_settings_f32 *settings,
                                   struct bowden_about *about);
@@ -3001,24 +3014,25 @@ bowden_result bowden_pid_get_terms_f32(const struct bowden_pid_f32 *pid,
 // nothing (BOWDEN_RESULT_HELD).
 bowden_result bowden_pid_applied_f32(struct bowden_pid_f32 *pid, float command);
 
-// Reports the limit at which the drive was after the last step, one of
+// Reports the limit that the drive reached after the last step, one of
 // bowden_saturation. Use this function for a drive that does not report its command,
 // such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
 //
 // Call this function between two steps. The last change of the integral towards the
-// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. Another value of
-// `saturation` is an error (BOWDEN_RESULT_ERROR_CHOICE).
+// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. If `saturation` is not
+// in bowden_saturation, the result is BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_pid_at_limit_f32(struct bowden_pid_f32 *pid, uint32_t saturation);
 
 // Sets `saturation` to the limit that was active at the last good sample, one of
 // bowden_saturation.
 //
-// In a cascade whose inner gains are positive, pass this value to bowden_pid_at_limit
-// of the outer loop.
+// In a cascade, pass this value to bowden_pid_at_limit of the outer loop if the gains
+// of the inner loop are positive.
 bowden_result bowden_pid_get_saturation_f32(const struct bowden_pid_f32 *pid, uint32_t *saturation);
 
-// Acknowledges the fault. The next good sample closes the loop again and starts from
-// the safe command. The call has no effect unless the safe command is latched.
+// Acknowledges the fault. At the next good sample, the controller closes the loop
+// again, starting from the safe command. The call has no effect unless the safe
+// command is latched.
 bowden_result bowden_pid_acknowledge_f32(struct bowden_pid_f32 *pid);
 
 // Clears the integral, the filtered derivative and the stored samples. The applied
@@ -3028,9 +3042,10 @@ bowden_result bowden_pid_reset_f32(struct bowden_pid_f32 *pid);
 // Prepares a stored object for a restart after a power-off. Call this function before
 // the first step. Otherwise the step continues from the stored command.
 //
-// The command becomes the value nearest to zero within the limits, and the first good
-// sample starts from it without a jump. The integral, the filtered derivative and the
-// stored samples are cleared. A latched safe command stays latched.
+// The command becomes the value nearest to zero within the limits. At the first good
+// sample, the controller starts from this command without a jump. The integral, the
+// filtered derivative and the stored samples are cleared. A latched safe command stays
+// latched.
 bowden_result bowden_pid_restore_f32(struct bowden_pid_f32 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
@@ -3042,11 +3057,12 @@ bowden_result bowden_pid_resume_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_sample_f32 *sample,
                                     struct bowden_output_f32 *out);
 
-// Changes the settings of a running loop without a jump in the command. On an error
-// the loop continues with the old settings. `about` may be null.
+// Changes the settings of a running loop without a jump in the command. After an
+// error, the loop continues with the old settings. `about` may be null.
 //
-// If the new range excludes the applied command, the next command is the nearest one
-// in the range and ignores the slew-rate limit. Therefore narrow a range step by step.
+// If the new range excludes the applied command, the next command is the nearest
+// command in the range, regardless of the slew-rate limit. Therefore, narrow a range
+// in small steps.
 bowden_result bowden_pid_change_f32(struct bowden_pid_f32 *pid,
                                     const struct bowden_pid_settings_f32 *settings,
                                     struct bowden_about *about);
@@ -3054,12 +3070,12 @@ bowden_result bowden_pid_change_f32(struct bowden_pid_f32 *pid,
 // Sets `latched` to 1 if the safe command is latched, otherwise to 0.
 bowden_result bowden_pid_is_latched_f32(const struct bowden_pid_f32 *pid, uint32_t *latched);
 
-// Writes the settings of a PI, equation (15). All fields without an argument have
-// their defaults.
+// Writes the settings of a PI controller, equation (15). All fields without an
+// argument receive their defaults.
 //
 // `low` and `high` [command unit] are the command limits, and `longest_dt` [s] is the
-// longest dt of a good sample. `safe` [command unit] is the command from the
-// `after`-th consecutive bad sample onward. bowden_pid_init checks the values.
+// longest dt of a good sample. `safe` [command unit] is applied from the `after`-th
+// consecutive bad sample onward. bowden_pid_init checks the values.
 bowden_result bowden_pid_settings_pi_f64(struct bowden_pid_settings_f64 *settings,
                                          double k_p,
                                          double k_i,
@@ -3071,7 +3087,7 @@ bowden_result bowden_pid_settings_pi_f64(struct bowden_pid_settings_f64 *setting
 
 // Checks the settings and initialises the controller.
 //
-// `about` may be null; otherwise it receives the name of a rejected setting.
+// If `about` is not null, it receives the name of a rejected setting.
 bowden_result bowden_pid_init_f64(struct bowden_pid_f64 *pid,
                                   const struct bowden_pid_settings_f64 *settings,
                                   struct bowden_about *about);
@@ -3098,24 +3114,25 @@ bowden_result bowden_pid_get_terms_f64(const struct bowden_pid_f64 *pid,
 // nothing (BOWDEN_RESULT_HELD).
 bowden_result bowden_pid_applied_f64(struct bowden_pid_f64 *pid, double command);
 
-// Reports the limit at which the drive was after the last step, one of
+// Reports the limit that the drive reached after the last step, one of
 // bowden_saturation. Use this function for a drive that does not report its command,
 // such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
 //
 // Call this function between two steps. The last change of the integral towards the
-// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. Another value of
-// `saturation` is an error (BOWDEN_RESULT_ERROR_CHOICE).
+// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. If `saturation` is not
+// in bowden_saturation, the result is BOWDEN_RESULT_ERROR_CHOICE.
 bowden_result bowden_pid_at_limit_f64(struct bowden_pid_f64 *pid, uint32_t saturation);
 
 // Sets `saturation` to the limit that was active at the last good sample, one of
 // bowden_saturation.
 //
-// In a cascade whose inner gains are positive, pass this value to bowden_pid_at_limit
-// of the outer loop.
+// In a cascade, pass this value to bowden_pid_at_limit of the outer loop if the gains
+// of the inner loop are positive.
 bowden_result bowden_pid_get_saturation_f64(const struct bowden_pid_f64 *pid, uint32_t *saturation);
 
-// Acknowledges the fault. The next good sample closes the loop again and starts from
-// the safe command. The call has no effect unless the safe command is latched.
+// Acknowledges the fault. At the next good sample, the controller closes the loop
+// again, starting from the safe command. The call has no effect unless the safe
+// command is latched.
 bowden_result bowden_pid_acknowledge_f64(struct bowden_pid_f64 *pid);
 
 // Clears the integral, the filtered derivative and the stored samples. The applied
@@ -3125,9 +3142,10 @@ bowden_result bowden_pid_reset_f64(struct bowden_pid_f64 *pid);
 // Prepares a stored object for a restart after a power-off. Call this function before
 // the first step. Otherwise the step continues from the stored command.
 //
-// The command becomes the value nearest to zero within the limits, and the first good
-// sample starts from it without a jump. The integral, the filtered derivative and the
-// stored samples are cleared. A latched safe command stays latched.
+// The command becomes the value nearest to zero within the limits. At the first good
+// sample, the controller starts from this command without a jump. The integral, the
+// filtered derivative and the stored samples are cleared. A latched safe command stays
+// latched.
 bowden_result bowden_pid_restore_f64(struct bowden_pid_f64 *pid);
 
 // Restarts the controller so that the command continues from `command` [command unit]
@@ -3139,11 +3157,12 @@ bowden_result bowden_pid_resume_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_sample_f64 *sample,
                                     struct bowden_output_f64 *out);
 
-// Changes the settings of a running loop without a jump in the command. On an error
-// the loop continues with the old settings. `about` may be null.
+// Changes the settings of a running loop without a jump in the command. After an
+// error, the loop continues with the old settings. `about` may be null.
 //
-// If the new range excludes the applied command, the next command is the nearest one
-// in the range and ignores the slew-rate limit. Therefore narrow a range step by step.
+// If the new range excludes the applied command, the next command is the nearest
+// command in the range, regardless of the slew-rate limit. Therefore, narrow a range
+// in small steps.
 bowden_result bowden_pid_change_f64(struct bowden_pid_f64 *pid,
                                     const struct bowden_pid_settings_f64 *settings,
                                     struct bowden_about *about);
@@ -3156,8 +3175,8 @@ bowden_result bowden_plausible_init_f32(struct bowden_plausible_f32 *plausible,
                                         const struct bowden_plausible_settings_f32 *settings,
                                         struct bowden_about *about);
 
-// Checks a sample [signal unit] taken `dt` [s] after the last call. Set `moves` to 1
-// while the machine moves, so that the signal must change.
+// Checks a sample [signal unit] taken `dt` [s] after the previous call. Set `moves` to
+// 1 while the machine moves and the signal must therefore change.
 //
 // The value of an implausible sample is NaN (BOWDEN_RESULT_IMPLAUSIBLE).
 bowden_result bowden_plausible_step_f32(struct bowden_plausible_f32 *plausible,
@@ -3171,8 +3190,8 @@ bowden_result bowden_plausible_init_f64(struct bowden_plausible_f64 *plausible,
                                         const struct bowden_plausible_settings_f64 *settings,
                                         struct bowden_about *about);
 
-// Checks a sample [signal unit] taken `dt` [s] after the last call. Set `moves` to 1
-// while the machine moves, so that the signal must change.
+// Checks a sample [signal unit] taken `dt` [s] after the previous call. Set `moves` to
+// 1 while the machine moves and the signal must therefore change.
 //
 // The value of an implausible sample is NaN (BOWDEN_RESULT_IMPLAUSIBLE).
 bowden_result bowden_plausible_step_f64(struct bowden_plausible_f64 *plausible,
@@ -3181,8 +3200,8 @@ bowden_result bowden_plausible_step_f64(struct bowden_plausible_f64 *plausible,
                                         uint32_t moves,
                                         struct bowden_plausible_output_f64 *out);
 
-// Initialises a play; see bowden_play_step. `half_width` [input unit] is at least 0;
-// with 0 the output is the input. `about` may be null.
+// Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
+// least 0; with 0 the output is the input. `about` may be null.
 bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
                                    float half_width,
                                    struct bowden_about *about);
@@ -3193,13 +3212,13 @@ bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
 //     y+ = clamp(y, x - r, x + r)
 //
 // An oscillation of the input within 2*r does not move the output. At the input of a
-// hysteresis, a play prevents reversals due to sensor noise. The first good sample is
-// the first output. If the input is not finite, the last output is held
-// (BOWDEN_RESULT_HELD).
+// hysteresis model, a play operator prevents reversals due to sensor noise. The first
+// output equals the first good sample. If the input is not finite, the last output is
+// held (BOWDEN_RESULT_HELD).
 bowden_result bowden_play_step_f32(struct bowden_play_f32 *play, float input, float *output);
 
-// Initialises a play; see bowden_play_step. `half_width` [input unit] is at least 0;
-// with 0 the output is the input. `about` may be null.
+// Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
+// least 0; with 0 the output is the input. `about` may be null.
 bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
                                    double half_width,
                                    struct bowden_about *about);
@@ -3210,9 +3229,9 @@ bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
 //     y+ = clamp(y, x - r, x + r)
 //
 // An oscillation of the input within 2*r does not move the output. At the input of a
-// hysteresis, a play prevents reversals due to sensor noise. The first good sample is
-// the first output. If the input is not finite, the last output is held
-// (BOWDEN_RESULT_HELD).
+// hysteresis model, a play operator prevents reversals due to sensor noise. The first
+// output equals the first good sample. If the input is not finite, the last output is
+// held (BOWDEN_RESULT_HELD).
 bowden_result bowden_play_step_f64(struct bowden_play_f64 *play, double input, double *output);
 
 // Checks the settings and initialises the estimator. `about` may be null.
@@ -3221,7 +3240,7 @@ bowden_result bowden_rates_init_f32(struct bowden_rates_f32 *rates,
                                     struct bowden_about *about);
 
 // Computes the motion at `position` [channel unit]. `dt` [s] is the time since the
-// last call, even if that sample was bad.
+// previous call, even if the sample of that call was bad.
 //
 //     s  = 1 - exp(-h/time_constant),  h = time since the last good sample
 //     v+ = v + s*((x - x_last)/h - v)
@@ -3239,7 +3258,7 @@ bowden_result bowden_rates_init_f64(struct bowden_rates_f64 *rates,
                                     struct bowden_about *about);
 
 // Computes the motion at `position` [channel unit]. `dt` [s] is the time since the
-// last call, even if that sample was bad.
+// previous call, even if the sample of that call was bad.
 //
 //     s  = 1 - exp(-h/time_constant),  h = time since the last good sample
 //     v+ = v + s*((x - x_last)/h - v)
@@ -3253,19 +3272,20 @@ bowden_result bowden_rates_step_f64(struct bowden_rates_f64 *rates,
 
 // Checks the settings and starts an experiment. `about` may be null.
 //
-// At the start the output must be near the reference: at the mean command of the
-// previous loop, or at rest.
+// At the start, the output must be near the reference. Start from rest, or from the
+// mean command of the previous loop.
 bowden_result bowden_relay_init_f32(struct bowden_relay_f32 *relay,
                                     const struct bowden_relay_settings_f32 *settings,
                                     struct bowden_about *about);
 
-// Processes one sample. `dt` [s] is the time since the last call, even if that sample
-// was bad. `measured` is in [output unit]. Call this function while the phase is
-// BOWDEN_RELAY_PHASE_RUNNING.
+// Processes one sample. `dt` [s] is the time since the previous call, even if the
+// sample of that call was bad. `measured` is in [output unit]. Call this function
+// while the phase is BOWDEN_RELAY_PHASE_RUNNING.
 //
 // A bad sample holds the command (BOWDEN_RESULT_HELD). After a failure the safe
-// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every sample
-// consumes part of `longest_time`, so the experiment always ends.
+// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every
+// sample, including a bad one, counts towards `longest_time`, so the experiment always
+// ends.
 bowden_result bowden_relay_step_f32(struct bowden_relay_f32 *relay,
                                     float dt,
                                     float measured,
@@ -3282,27 +3302,28 @@ bowden_result bowden_relay_is_latched_f32(const struct bowden_relay_f32 *relay, 
 // (otherwise BOWDEN_RESULT_ERROR_CHOICE).
 //
 // A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
-// The result is zero until the experiment is done. With these gains, continue with
-// bowden_pid_resume from the applied command.
+// The result is zero until the experiment is done. To continue with these gains, call
+// bowden_pid_resume with the applied command.
 bowden_result bowden_relay_gains_f32(const struct bowden_ultimate_f32 *ultimate,
                                      uint32_t rule,
                                      struct bowden_pi_gains_f32 *gains);
 
 // Checks the settings and starts an experiment. `about` may be null.
 //
-// At the start the output must be near the reference: at the mean command of the
-// previous loop, or at rest.
+// At the start, the output must be near the reference. Start from rest, or from the
+// mean command of the previous loop.
 bowden_result bowden_relay_init_f64(struct bowden_relay_f64 *relay,
                                     const struct bowden_relay_settings_f64 *settings,
                                     struct bowden_about *about);
 
-// Processes one sample. `dt` [s] is the time since the last call, even if that sample
-// was bad. `measured` is in [output unit]. Call this function while the phase is
-// BOWDEN_RELAY_PHASE_RUNNING.
+// Processes one sample. `dt` [s] is the time since the previous call, even if the
+// sample of that call was bad. `measured` is in [output unit]. Call this function
+// while the phase is BOWDEN_RELAY_PHASE_RUNNING.
 //
 // A bad sample holds the command (BOWDEN_RESULT_HELD). After a failure the safe
-// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every sample
-// consumes part of `longest_time`, so the experiment always ends.
+// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every
+// sample, including a bad one, counts towards `longest_time`, so the experiment always
+// ends.
 bowden_result bowden_relay_step_f64(struct bowden_relay_f64 *relay,
                                     double dt,
                                     double measured,
@@ -3319,8 +3340,8 @@ bowden_result bowden_relay_is_latched_f64(const struct bowden_relay_f64 *relay, 
 // (otherwise BOWDEN_RESULT_ERROR_CHOICE).
 //
 // A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
-// The result is zero until the experiment is done. With these gains, continue with
-// bowden_pid_resume from the applied command.
+// The result is zero until the experiment is done. To continue with these gains, call
+// bowden_pid_resume with the applied command.
 bowden_result bowden_relay_gains_f64(const struct bowden_ultimate_f64 *ultimate,
                                      uint32_t rule,
                                      struct bowden_pi_gains_f64 *gains);

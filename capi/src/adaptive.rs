@@ -8,9 +8,9 @@ use core_bowden::control::{Adaptive, AdaptiveInput, AdaptiveState, Applied, Outp
 
 /// Maximum number of regressors in an adaptive law.
 pub const BOWDEN_REGRESSORS: usize = 4;
-/// Size in 64-bit words.
+/// Size of bowden_adaptive_f32 in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F32_WORDS: usize = 56;
-/// Size in 64-bit words.
+/// Size of bowden_adaptive_f64 in 64-bit words.
 pub const BOWDEN_ADAPTIVE_F64_WORDS: usize = 104;
 
 /// The adaptive law and the number of regressors in its settings. All further regressors are zero.
@@ -27,7 +27,7 @@ macro_rules! adaptive {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_adaptive_sample_ $f>] {
-                /// Time since the last call [s], even if that sample was bad.
+                /// Time since the previous call [s], even if the sample of that call was bad.
                 pub dt: $f,
                 /// Reference y_r [N*m].
                 pub reference: $f,
@@ -36,8 +36,8 @@ macro_rules! adaptive {
                 pub next_reference: $f,
                 /// Measured output torque y [N*m].
                 pub measured: $f,
-                /// Regressors x_i [their own units]; in the paper, velocity and acceleration.
-                /// Entries beyond the number of regressors in the settings are ignored.
+                /// Regressors x_i [own units], such as velocity and acceleration. Entries beyond
+                /// the number of regressors in the settings are ignored.
                 pub regressors: [$f; BOWDEN_REGRESSORS],
                 /// Feed-forward [command unit], added to the command of the adaptive law.
                 pub feed_forward: $f,
@@ -90,7 +90,7 @@ macro_rules! adaptive {
 
             /// Checks the settings and initialises the law with the initial estimates.
             ///
-            /// `about` may be null; otherwise it receives the name of a rejected setting.
+            /// If `about` is not null, it receives the name of a rejected setting.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_init_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -151,8 +151,7 @@ macro_rules! adaptive {
 
             /// Reports the command [command unit] that the drive applied after the last step; see
             /// bowden_pid_applied. At the next good sample, z moves no further towards the limit of
-            /// the drive. The estimates then do not change if s requires more than this limit
-            /// allows.
+            /// the drive. The estimates do not change while s requires a command beyond this limit.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_applied_ $f>](
                 law: *mut [<bowden_adaptive_ $f>],
@@ -165,7 +164,7 @@ macro_rules! adaptive {
                 })())
             }
 
-            /// Reports the limit at which the drive was after the last step; see
+            /// Reports the limit that the drive reached after the last step; see
             /// bowden_pid_at_limit.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_adaptive_at_limit_ $f>](

@@ -12,10 +12,10 @@ use core_bowden::control::{
 macro_rules! settings {
     ($f:ident) => {
         pastey::paste! {
-            /// Settings of one estimate in (24)-(26).
+            /// Settings of one estimate of the adaptive law, (24)-(26).
             ///
-            /// The macro of the adaptive law also initialises its estimates. By itself, the macro
-            /// of an estimate fixes the estimate at 0, with a gain of 0 and no leakage.
+            /// The macro of the adaptive law also initialises its estimates. The macro of this
+            /// struct fixes the estimate at 0, with zero gain and no leakage.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_estimator_ $f>] {
@@ -29,14 +29,15 @@ macro_rules! settings {
                 pub high: $f,
                 /// Adaptation gain gamma, mu or mu_i of (24)-(26), not negative.
                 pub gain: $f,
-                /// Prior [unit of the estimate], the target of the leakage; 0 in the paper.
+                /// Prior [unit of the estimate]: the value towards which the estimate leaks; 0 in
+                /// the paper.
                 pub prior: $f,
                 /// Leakage method, one of bowden_leakage.
                 pub leakage: u32,
-                /// Largest leakage [1/s], not negative.
+                /// Largest leakage rate [1/s], not negative.
                 pub leakage_rate: $f,
-                /// Distance from the prior without leakage [unit of the estimate], positive. Only
-                /// BOWDEN_LEAKAGE_SWITCHING uses it.
+                /// Distance from the prior within which the estimate does not leak [unit of the
+                /// estimate], positive. Only BOWDEN_LEAKAGE_SWITCHING uses this field.
                 pub leakage_bound: $f,
             }
 
@@ -124,11 +125,10 @@ macro_rules! settings {
                 pub delta: [<bowden_estimator_ $f>],
                 /// Number of regressors, at most BOWDEN_REGRESSORS.
                 pub regressors: u32,
-                /// Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries with
-                /// an index of `regressors` or more are ignored.
+                /// Estimates of theta_i [N*m/unit of the regressor], adapted by (26). Entries from
+                /// index `regressors` onward are ignored.
                 pub theta: [[<bowden_estimator_ $f>]; BOWDEN_REGRESSORS],
-                /// Response of each regressor to a value that is not finite, one of
-                /// bowden_on_missing.
+                /// Response to a non-finite value of each regressor, one of bowden_on_missing.
                 pub missing: [u32; BOWDEN_REGRESSORS],
                 /// Largest magnitude of the accumulated error z [N*m*s], positive.
                 pub z_limit: $f,

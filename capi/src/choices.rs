@@ -4,9 +4,9 @@
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_form {
-    /// For a plant with inertia: (23) as published, with a filtered difference of the error.
+    /// For a plant with inertia: (23) as published. The error rate is a filtered difference.
     AsPublished = 0,
-    /// For a plant that responds within one sample: the law solved for the error rate.
+    /// For a plant that responds within one sample: the adaptive law solved for the error rate.
     FirstOrder = 1,
 }
 
@@ -16,7 +16,8 @@ pub enum bowden_form {
 pub enum bowden_smooth_sign {
     /// tanh(x), as in the paper.
     Tanh = 0,
-    /// x clamped to [-1, 1]: cheaper than tanh, with a smaller residual x*(1 - T(x)).
+    /// x clamped to [-1, 1]. This function is cheaper than tanh, and the maximum of x*(1 - T(x)) is
+    /// smaller.
     Clamp = 1,
 }
 
@@ -28,8 +29,8 @@ pub enum bowden_leakage {
     None = 0,
     /// Constant leakage at `leakage_rate`, the sigma of (24)-(26).
     Constant = 1,
-    /// Leakage only beyond `leakage_bound` from the prior. The leakage reaches `leakage_rate` at
-    /// twice this distance.
+    /// Leakage only if the distance from the prior exceeds `leakage_bound`. The leakage rate
+    /// reaches `leakage_rate` at twice this distance.
     Switching = 2,
 }
 

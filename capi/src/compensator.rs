@@ -8,13 +8,13 @@ use crate::{bowden_model_f32, bowden_model_f64, bowden_motion_f32, bowden_motion
 use core_bowden::control::{Applied, BenchRange, Compensator, CompensatorInput, CompensatorState};
 use core_bowden::model::Source;
 
-/// Maximum number of ranges of a compensator.
+/// Maximum number of ranges in a compensator.
 pub const BOWDEN_RANGES: usize = 17;
 /// Value of `source` in a range: the input of the transmission.
 pub const BOWDEN_SOURCE_INPUT: u32 = 0xffff_ffff;
-/// Size in 64-bit words.
+/// Size of bowden_compensator_f32 in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F32_WORDS: usize = 184;
-/// Size in 64-bit words.
+/// Size of bowden_compensator_f64 in 64-bit words.
 pub const BOWDEN_COMPENSATOR_F64_WORDS: usize = 360;
 
 /// Converts the source of a range. The compensator later rejects a channel that no term reads.
@@ -29,16 +29,16 @@ fn source(number: u32) -> Result<Source, Refused> {
 macro_rules! compensator {
     ($f:ident, $magic:literal) => {
         pastey::paste! {
-            /// Range of one source in the bench record. The effects do not extrapolate beyond this
-            /// range.
+            /// Range of one source in the bench record. The effects are not extrapolated beyond
+            /// this range.
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_range_ $f>] {
                 /// Channel index, from 0, or BOWDEN_SOURCE_INPUT.
                 pub source: u32,
-                /// Minimum of position, velocity and acceleration.
+                /// Minima of position, velocity and acceleration.
                 pub low: [<bowden_motion_ $f>],
-                /// Maximum of position, velocity and acceleration.
+                /// Maxima of position, velocity and acceleration.
                 pub high: [<bowden_motion_ $f>],
             }
 
@@ -51,8 +51,8 @@ macro_rules! compensator {
                 /// Desired output [output unit], such as tau_o [N*m]. Use the reference, not the
                 /// measured output.
                 pub desired: $f,
-                /// Present input of the transmission with its velocity and acceleration, for
-                /// effects that read it.
+                /// Current input of the transmission with its velocity and acceleration. Only
+                /// effects that depend on the input use it.
                 pub input: [<bowden_motion_ $f>],
                 /// Transmitted load: tau_i in torque mode, otherwise a load channel.
                 pub load: $f,
@@ -71,7 +71,7 @@ macro_rules! compensator {
                 pub command: $f,
                 /// Contribution of the effects to the output [output unit]; zero for a bad sample.
                 pub effects: $f,
-                /// Hysteresis state of the model, within -1 and 1.
+                /// Hysteresis state of the model, from -1 to 1.
                 pub eta: $f,
                 /// Return value of the step.
                 pub result: bowden_result,
@@ -94,16 +94,17 @@ macro_rules! compensator {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Inverts a loaded model and initialises the state at zero:
+            /// Inverts a loaded model and initialises the state to zero. Each step then computes
             ///
             ///     tau_i = inverse transmission(desired - sum of gain*regressor, eta)
             ///
-            /// A dt longer than `longest_dt` [s] is a bad sample. Motions are clamped to `ranges`.
-            /// A term of the model must read the source of each range, except BOWDEN_SOURCE_INPUT.
-            /// `ranges` may be null if `range_count` is 0. `about` may be null. The compensator
-            /// does not use the model afterwards.
+            /// A dt longer than `longest_dt` [s] is a bad sample. Positions, velocities and
+            /// accelerations are clamped to `ranges`. The source of each range must be
+            /// BOWDEN_SOURCE_INPUT or a channel that a term of the model reads. `ranges` may be
+            /// null if `range_count` is 0. `about` may be null. After the call, the compensator no
+            /// longer needs the model.
             ///
-            /// A model without an inverse is an error (BOWDEN_RESULT_ERROR_INADMISSIBLE).
+            /// If the model has no inverse, the result is BOWDEN_RESULT_ERROR_INADMISSIBLE.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_init_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -133,12 +134,13 @@ macro_rules! compensator {
             }
 
             /// Applies a play to the desired torque of the cable. `half_width` [output unit] is at
-            /// least 0; 0, the default, disables the play.
+            /// least 0. The default, 0, disables the play.
             ///
-            /// A term that reads a velocity from encoder counts makes the desired torque reverse at
-            /// each count. The inverse is steep after a reversal, so the command chatters. A
-            /// half-width slightly above |gain|*count/(2*time constant), half of one count's effect
-            /// on the torque, removes these reversals.
+            /// If a term reads a velocity that is computed from encoder counts, the desired torque
+            /// of the cable reverses at each count. The inverse is steep after a reversal, so the
+            /// command chatters. To remove these reversals, choose a half-width slightly above
+            /// |gain|*count/(2*time constant). This value is half of one count's effect on the
+            /// torque.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_set_play_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -198,9 +200,9 @@ macro_rules! compensator {
             /// differs from the command of the step.
             ///
             /// Call this function between two steps, for example if the drive is off or another
-            /// controller adds a command. The hysteresis then follows this input. Only the last
-            /// report after a step is used. A command that is not finite changes nothing
-            /// (BOWDEN_RESULT_HELD).
+            /// controller adds a command. The hysteresis then follows this input. If there are
+            /// several reports after a step, only the last one is used. A command that is not
+            /// finite changes nothing (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_applied_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -214,9 +216,9 @@ macro_rules! compensator {
                 })())
             }
 
-            /// Reports the limit at which the drive was after the last step; see
-            /// bowden_pid_at_limit. The input of the model then does not rise at the upper limit
-            /// and does not fall at the lower limit.
+            /// Reports the limit that the drive reached after the last step; see
+            /// bowden_pid_at_limit. The input of the model then does not rise if this limit is the
+            /// upper one, and does not fall if it is the lower one.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_at_limit_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],
@@ -231,7 +233,7 @@ macro_rules! compensator {
                 })())
             }
 
-            /// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
+            /// Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_compensator_reset_ $f>](
                 compensator: *mut [<bowden_compensator_ $f>],

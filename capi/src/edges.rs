@@ -5,9 +5,9 @@ use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_rates, t
 use crate::settings::{marked, Marked};
 use core_bowden::signal::{EdgeVelocity, EdgeVelocityState};
 
-/// Size in 64-bit words.
+/// Size of bowden_edge_velocity_f32 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_edge_velocity_f64 in 64-bit words.
 pub const BOWDEN_EDGE_VELOCITY_F64_WORDS: usize = 13;
 
 macro_rules! edges {
@@ -37,13 +37,13 @@ macro_rules! edges {
                 /// Size of one count [channel unit], positive. Positions change by multiples of
                 /// this size.
                 pub count: $f,
-                /// Averaging time for counts at shorter intervals [s], positive.
+                /// Time constant [s], positive, of the average over counts at shorter intervals.
                 pub time_constant: $f,
                 /// Time without a count [s], positive, after which the velocity is zero. A speed
-                /// below count/longest_gap therefore reads as zero.
+                /// below count/longest_gap is therefore reported as zero.
                 pub longest_gap: $f,
-                /// Period [channel unit] of a position that wraps, such as a counter; 0 if the
-                /// position does not wrap.
+                /// Period [channel unit] of a position that wraps, such as a counter reading; 0 if
+                /// the position does not wrap.
                 pub period: $f,
             }
 
@@ -95,8 +95,8 @@ macro_rules! edges {
             }
 
             /// Computes the velocity at `position` [channel unit]. `dt` [s] is the time since the
-            /// last call, even if that sample was bad. M is the number of counts in the time T
-            /// since the last sample with a count:
+            /// previous call, even if the sample of that call was bad. M is the number of counts in
+            /// the time T since the last sample with a count:
             ///
             ///     v+ = v + (1 - exp(-T/time_constant))*(M*count/T - v)   at a sample with counts
             ///     |v| <= count/(time since the last count)               at every other sample

@@ -6,13 +6,13 @@ use crate::settings::{marked, Marked};
 use core_bowden::signal::{Biquad, BiquadState, LowPass, LowPassState};
 use core_bowden::{Error, Real};
 
-/// Size in 64-bit words.
+/// Size of bowden_low_pass_f32 in 64-bit words.
 pub const BOWDEN_LOW_PASS_F32_WORDS: usize = 4;
-/// Size in 64-bit words.
+/// Size of bowden_low_pass_f64 in 64-bit words.
 pub const BOWDEN_LOW_PASS_F64_WORDS: usize = 6;
-/// Size in 64-bit words.
+/// Size of bowden_biquad_f32 in 64-bit words.
 pub const BOWDEN_BIQUAD_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_biquad_f64 in 64-bit words.
 pub const BOWDEN_BIQUAD_F64_WORDS: usize = 14;
 
 /// The result of a filter step: good, or held because of a bad sample or dt.
@@ -55,13 +55,13 @@ macro_rules! filters {
                 unsafe { told(parts().and_then(|inner| Ok(start(filter, inner)?)), about) }
             }
 
-            /// Processes a sample x taken `dt` [s] after the last call. The output y is
+            /// Processes a sample x taken `dt` [s] after the previous call. The output y is
             ///
             ///     y+ = y + dt/(time_constant + dt)*(x - y)
             ///
-            /// The corner frequency is 1/(2*pi*time_constant) [Hz]. The first good sample starts
-            /// the filter at rest. If the sample is not finite, or dt is not positive and finite,
-            /// the last output is held (BOWDEN_RESULT_HELD).
+            /// The corner frequency is 1/(2*pi*time_constant) [Hz]. At the first good sample, the
+            /// filter starts in steady state. If the sample is not finite, or dt is not positive
+            /// and finite, the last output is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_low_pass_step_ $f>](
                 filter: *mut [<bowden_low_pass_ $f>],
@@ -91,8 +91,8 @@ macro_rules! filters {
             pub struct [<bowden_biquad_settings_ $f>] {
                 /// Initialisation mark, set by NAME_INIT.
                 pub init_mark: u32,
-                /// Corner of the low-pass or centre of the notch [Hz], positive and below
-                /// 1/(2*sample_time).
+                /// Corner frequency of the low-pass filter or centre frequency of the notch filter
+                /// [Hz], positive and below 1/(2*sample_time).
                 pub frequency: $f,
                 /// Quality factor, positive. Low-pass: 0.7071 for Butterworth, 0.5 for critical
                 /// damping. Notch: the width at -3 dB is frequency/q [Hz].
@@ -169,11 +169,12 @@ macro_rules! filters {
                 }
             }
 
-            /// Filters a sample taken `dt` [s] after the last call. `output` receives the filtered
-            /// value.
+            /// Filters a sample taken `dt` [s] after the previous call. `output` receives the
+            /// filtered value.
             ///
-            /// The first good sample starts the filter at rest. If the sample is not finite, or dt
-            /// is not positive and finite, the last output is held (BOWDEN_RESULT_HELD).
+            /// At the first good sample, the filter starts in steady state. If the sample is not
+            /// finite, or dt is not positive and finite, the last output is held
+            /// (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_biquad_step_ $f>](
                 filter: *mut [<bowden_biquad_ $f>],

@@ -6,7 +6,7 @@ use crate::settings::{marked, Marked, UNSET};
 use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::transmission::{Inverse, Transmission};
 
-/// Input and output quantities.
+/// Input and output quantities of a transmission.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_mode {
@@ -16,17 +16,17 @@ pub enum bowden_mode {
     Displacement = 1,
 }
 
-/// Size in 64-bit words.
+/// Size of bowden_hysteresis_f32 in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_hysteresis_f64 in 64-bit words.
 pub const BOWDEN_HYSTERESIS_F64_WORDS: usize = 14;
-/// Size in 64-bit words.
+/// Size of bowden_cable_f32 in 64-bit words.
 pub const BOWDEN_CABLE_F32_WORDS: usize = 10;
-/// Size in 64-bit words.
+/// Size of bowden_cable_f64 in 64-bit words.
 pub const BOWDEN_CABLE_F64_WORDS: usize = 20;
-/// Size in 64-bit words.
+/// Size of bowden_inverse_f32 in 64-bit words.
 pub const BOWDEN_INVERSE_F32_WORDS: usize = 10;
-/// Size in 64-bit words.
+/// Size of bowden_inverse_f64 in 64-bit words.
 pub const BOWDEN_INVERSE_F64_WORDS: usize = 20;
 
 /// The result of a step with one input: good or held.
@@ -63,7 +63,7 @@ macro_rules! hysteresis {
                 pub sigma: $f,
                 /// n, at least 1: sharpness of the knee.
                 pub n: $f,
-                /// Initial hysteresis state, within -1 and 1; 0 if unknown.
+                /// Initial hysteresis state, from -1 to 1; 0 if unknown.
                 pub eta: $f,
             }
 
@@ -104,7 +104,7 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// Settings of a hysteresis, equations (2) and (7).
+            /// Settings of a hysteresis model, equations (2) and (7).
             ///
             /// By default `eta` is 0. You must set all other fields.
             #[repr(C)]
@@ -118,7 +118,7 @@ macro_rules! hysteresis {
                 pub sigma: $f,
                 /// n, at least 1: sharpness of the knee.
                 pub n: $f,
-                /// Initial hysteresis state, within -1 and 1; 0 if unknown.
+                /// Initial hysteresis state, from -1 to 1; 0 if unknown.
                 pub eta: $f,
             }
 
@@ -137,7 +137,7 @@ macro_rules! hysteresis {
                 }
             }
 
-            /// Hysteresis, equations (2) and (7), with its state.
+            /// Hysteresis model, equations (2) and (7), with its state.
             #[repr(C)]
             pub struct [<bowden_hysteresis_ $f>] {
                 /// Private; do not use.
@@ -176,7 +176,7 @@ macro_rules! hysteresis {
                 const MAGIC: u64 = $magic + 2;
             }
 
-            /// Checks the settings and initialises a hysteresis. `about` may be null.
+            /// Checks the settings and initialises a hysteresis model. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_init_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -192,9 +192,9 @@ macro_rules! hysteresis {
                 unsafe { told(parts().and_then(|inner| Ok(start(hysteresis, inner)?)), about) }
             }
 
-            /// Processes one input sample [input unit]. `eta` receives the hysteresis state, within
-            /// -1 and 1. The first sample only sets the input. If the input is not finite, the last
-            /// state is held (BOWDEN_RESULT_HELD).
+            /// Processes one input sample [input unit]. `eta` receives the hysteresis state, from
+            /// -1 to 1. The first sample only initialises the input. If the input is not finite,
+            /// the last state is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_hysteresis_step_ $f>](
                 hysteresis: *mut [<bowden_hysteresis_ $f>],
@@ -248,8 +248,9 @@ macro_rules! hysteresis {
             /// Initialises the inverse of the transmission that has these parameters. `about` may
             /// be null.
             ///
-            /// There is no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is zero, or if
-            /// the hysteresis opposes the gain and sigma exceeds |gain|/(2*|kappa_eta|*rho).
+            /// The transmission has no inverse (BOWDEN_RESULT_ERROR_INADMISSIBLE) if the gain is
+            /// zero, or if the hysteresis opposes the gain and sigma exceeds
+            /// |gain|/(2*|kappa_eta|*rho).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_inverse_init_ $f>](
                 inverse: *mut [<bowden_inverse_ $f>],

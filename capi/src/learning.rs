@@ -9,9 +9,9 @@ use core_bowden::{Error, Real};
 /// Maximum number of cells in a cycle.
 pub const BOWDEN_CELLS: usize = 65535;
 const _: () = assert!(BOWDEN_CELLS == IterativeLearning::<f32>::MOST_CELLS);
-/// Size in 64-bit words.
+/// Size of bowden_iterative_learning_f32 in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F32_WORDS: usize = 14;
-/// Size in 64-bit words.
+/// Size of bowden_iterative_learning_f64 in 64-bit words.
 pub const BOWDEN_ITERATIVE_LEARNING_F64_WORDS: usize = 18;
 
 /// Initialises the object with both arrays after all checks. The function sets `unfiltered` to
@@ -73,8 +73,9 @@ macro_rules! learning {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of iterative learning control. A cycle consists of cells of equal phase. e
-            /// is the mean of reference - measured over a cell, and w(k) is a triangle of area 1:
+            /// Settings of iterative learning control. A cycle is divided into cells of equal width
+            /// in phase. e is the mean of reference - measured over a cell, and w(k) are triangular
+            /// weights with a sum of 1. In each cycle, the learned values become
             ///
             ///     v(c) = (1 - forgetting)*learned(c) + gain*e(c + lead)
             ///     learned(c) = sum of w(k)*v(c + k), k from -half_width to half_width
@@ -94,7 +95,7 @@ macro_rules! learning {
                 pub forgetting: $f,
                 /// Number of cells between a command and its effect.
                 pub lead: u16,
-                /// Half-width of the triangle [cells]; 0 disables the filter.
+                /// Half-width of the triangular filter [cells]; 0 disables the filter.
                 pub half_width: u16,
             }
 
@@ -140,13 +141,13 @@ macro_rules! learning {
                 pub fault: bowden_fault,
             }
 
-            /// Checks the settings and initialises iterative learning with two arrays of `cells`
-            /// numbers, which it sets to zero. `cells` is at least lead + 2*half_width + 9 and at
-            /// most BOWDEN_CELLS. On an error the arrays do not change. `about` may be null.
+            /// Checks the settings, initialises the controller, and sets its two arrays of `cells`
+            /// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
+            /// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
             ///
             /// The caller owns the arrays, which must exist for as long as the object is used. The
-            /// caller may read `learned` between two calls. Nothing else may write to the arrays or
-            /// use them for another object. The arrays must not overlap each other or the object
+            /// caller may read `learned` between two calls. Do not write to the arrays or use them
+            /// for another object. The arrays must not overlap each other or the object
             /// (BOWDEN_RESULT_ERROR_INADMISSIBLE). A copy of the object uses the same arrays, so
             /// use only one of the two objects.
             #[no_mangle]
@@ -165,9 +166,9 @@ macro_rules! learning {
                 }
             }
 
-            /// Like bowden_iterative_learning_init, but continues with the values in `learned`,
-            /// such as a copy from before a reset. The function clamps the values to the limit and
-            /// replaces NaN by zero. `unfiltered` may have any contents.
+            /// Initialises the object like bowden_iterative_learning_init, but continues with the
+            /// values in `learned`, such as values saved before a reset. The function clamps the
+            /// values to the limit and replaces NaN by zero. `unfiltered` may contain any values.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_resume_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],
@@ -187,19 +188,19 @@ macro_rules! learning {
             /// Processes one sample. Call this function before the step of the controller. `phase`
             /// is the phase of the cycle, 0 to 1. `reference` and `measured` are in [output unit].
             ///
-            /// Set `learns` to 0 if a limit has cut the command, the safe command is applied, or
-            /// the task is different. If more than half of the samples in a cell have `learns` = 0,
-            /// the errors of the next `lead` cells are ignored too.
+            /// Set `learns` to 0 while the command is limited, while the safe command is applied,
+            /// or during a different task. If more than half of the samples in a cell have `learns`
+            /// = 0, the errors of the next `lead` cells are ignored too.
             ///
             /// A phase outside 0 to 1 changes nothing and holds the feed-forward
-            /// (BOWDEN_RESULT_HELD). The controller counts such a sample as good.
+            /// (BOWDEN_RESULT_HELD). The feedback controller does not detect this fault.
             /// BOWDEN_RESULT_DEGRADED has two causes:
             ///
             /// - The reference or the measured output is not finite. The feed-forward follows the
             ///   phase, but nothing is learned.
             /// - The phase has jumped by more than four cells. The cell before the jump does not
-            ///   learn. The feed-forward jumps with the phase, so give the controller a slew-rate
-            ///   limit.
+            ///   learn. The feed-forward jumps with the phase, so set a slew-rate limit in the
+            ///   feedback controller.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_iterative_learning_step_ $f>](
                 learning: *mut [<bowden_iterative_learning_ $f>],

@@ -4,7 +4,7 @@
 //! between two magic words. The unsafe code reads, checks and writes memory through the functions
 //! of `object.rs`.
 //!
-//! The head of the header gives the rules for a C caller.
+//! The comment at the top of the header states the rules for C callers.
 // On bare metal no_std; elsewhere the static library needs std for its panic handler alone.
 #![cfg_attr(target_os = "none", no_std)]
 #![allow(non_camel_case_types)]

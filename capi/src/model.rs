@@ -13,9 +13,9 @@ pub const BOWDEN_TERMS: usize = 16;
 pub const BOWDEN_CHANNELS: usize = 16;
 /// Maximum size of a model, in bytes. No model with BOWDEN_TERMS terms exceeds this limit.
 pub const BOWDEN_MODEL_BYTES: usize = 2048;
-/// Size in 64-bit words.
+/// Size of bowden_model_f32 in 64-bit words.
 pub const BOWDEN_MODEL_F32_WORDS: usize = 112;
-/// Size in 64-bit words.
+/// Size of bowden_model_f64 in 64-bit words.
 pub const BOWDEN_MODEL_F64_WORDS: usize = 216;
 
 /// The checksum that `bowden identify --model-out` writes after the model.
@@ -85,16 +85,16 @@ macro_rules! model {
             }
 
             /// Loads a model and initialises its state. `bowden identify --model-out FILE.postcard`
-            /// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. The
-            /// object does not use the bytes afterwards.
+            /// and `bowden export --c` write the bytes, which end with four bytes of CRC-32. After
+            /// the call, the object no longer needs the bytes.
             ///
             /// `length` is the length of the model including the CRC-32, not the length of a larger
-            /// array or sector. `eta` is the initial hysteresis state, within -1 and 1; 0 if
-            /// unknown. `about` may be null. Errors:
+            /// array or sector. `eta` is the initial hysteresis state, from -1 to 1; 0 if unknown.
+            /// `about` may be null. Errors:
             ///
-            /// - BOWDEN_RESULT_ERROR_MODEL: bytes are damaged or surplus (`about` is "checksum"),
-            ///   the bytes have the other precision or another version, or there are more than
-            ///   BOWDEN_TERMS terms.
+            /// - BOWDEN_RESULT_ERROR_MODEL: the bytes are damaged or too many (`about` is
+            ///   "checksum"), or the model is of the other precision or of another version, or has
+            ///   more than BOWDEN_TERMS terms.
             /// - BOWDEN_RESULT_ERROR_CAPACITY: a term reads a channel whose index is
             ///   BOWDEN_CHANNELS or more, or `length` exceeds BOWDEN_MODEL_BYTES.
             #[no_mangle]
@@ -157,7 +157,7 @@ macro_rules! model {
                 })())
             }
 
-            /// Writes the hysteresis state, within -1 and 1, to `eta`.
+            /// Writes the hysteresis state, from -1 to 1, to `eta`.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_eta_ $f>](
                 model: *const [<bowden_model_ $f>],
@@ -171,7 +171,7 @@ macro_rules! model {
                 })())
             }
 
-            /// Resets the state and sets the hysteresis state to `eta`, within -1 and 1.
+            /// Resets the state and sets the hysteresis state to `eta`, from -1 to 1.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_model_reset_ $f>](
                 model: *mut [<bowden_model_ $f>],
@@ -190,7 +190,7 @@ macro_rules! model {
 /// Returns the bytes of the caller.
 ///
 /// # Safety
-/// `bytes` is null or points to `length` bytes that nobody writes meanwhile.
+/// `bytes` is null or points to `length` bytes that nobody writes during the call.
 unsafe fn readable<'a>(bytes: *const u8, length: usize) -> Result<&'a [u8], Refused> {
     if bytes.is_null() {
         return Err(bowden_result::ErrorNull.into());

@@ -95,7 +95,7 @@ unsafe fn is_started<O: Object>(object: *const O) -> Result<(), bowden_result> {
 /// The data of an initialised object.
 ///
 /// # Safety
-/// `object` is null or points to memory of its type that nobody else uses meanwhile.
+/// `object` is null or points to memory of its type that nobody else uses during the call.
 pub(crate) unsafe fn kept<'a, O: Object>(
     object: *mut O,
 ) -> Result<&'a mut O::Inner, bowden_result> {
@@ -110,7 +110,7 @@ pub(crate) unsafe fn kept<'a, O: Object>(
 /// The data of an initialised object, for reading only.
 ///
 /// # Safety
-/// `object` is null or points to memory of its type that nobody writes meanwhile.
+/// `object` is null or points to memory of its type that nobody writes during the call.
 pub(crate) unsafe fn seen<'a, O: Object>(object: *const O) -> Result<&'a O::Inner, bowden_result> {
     // SAFETY: as of `kept`; nobody writes to it.
     unsafe {

@@ -1,4 +1,4 @@
-//! The disturbance observer estimates and compensates friction and load.
+//! Disturbance observer: an estimate of friction and load as a feed-forward.
 
 use crate::object::{kept, read, read_settings, seen, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_fault, bowden_result, code, of_status, told, Refused};
@@ -6,9 +6,9 @@ use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::control::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
 
-/// Size in 64-bit words.
+/// Size of bowden_observer_f32 in 64-bit words.
 pub const BOWDEN_OBSERVER_F32_WORDS: usize = 14;
-/// Size in 64-bit words.
+/// Size of bowden_observer_f64 in 64-bit words.
 pub const BOWDEN_OBSERVER_F64_WORDS: usize = 25;
 
 macro_rules! observer {
@@ -31,8 +31,8 @@ macro_rules! observer {
             ///
             ///     P(s) = gain/(s^2/wn^2 + 2*zeta*s/wn + 1)
             ///
-            /// For a motor with inertia J and damping c against a stiffness K, wn = sqrt(K/J) and
-            /// zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
+            /// For a motor with inertia J and damping c that drives a stiffness K, wn = sqrt(K/J)
+            /// and zeta = c/(2*sqrt(K*J)). If wn and the gain are uncertain, choose low values.
             ///
             /// By default `latency` is 0. You must set all other fields.
             #[repr(C)]
@@ -52,7 +52,7 @@ macro_rules! observer {
                 pub limit: $f,
                 /// Longest dt of a good sample [s], positive.
                 pub longest_dt: $f,
-                /// Delay [s] from a command to the measured output, without the response of the
+                /// Delay [s] from a command to the measured output, excluding the response of the
                 /// nominal plant; at least 0.
                 pub latency: $f,
             }
@@ -109,8 +109,8 @@ macro_rules! observer {
             }
 
             /// Processes one sample. Call this function before the step of the controller. `dt` [s]
-            /// is the time since the last call. `sent` [command unit] is the command applied since
-            /// the last call, after all limits. `measured` is in [output unit].
+            /// is the time since the previous call. `sent` [command unit] is the command applied
+            /// since that call, after all limits. `measured` is in [output unit].
             ///
             /// A bad sample holds the estimate (BOWDEN_RESULT_HELD).
             #[no_mangle]
@@ -133,8 +133,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// Computes the command [command unit] for which the nominal plant follows a motion.
-            /// `wanted` is the motion desired one latency later.
+            /// Computes the command [command unit] for which the output of the nominal plant
+            /// follows a desired motion. `wanted` is the motion desired one latency later.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_feed_forward_ $f>](
                 observer: *const [<bowden_observer_ $f>],
@@ -150,8 +150,8 @@ macro_rules! observer {
                 })())
             }
 
-            /// Resets the state. Call this function after the drive was off, because a command that
-            /// did not reach the motor must not count.
+            /// Resets the state. Call this function after the drive was off. Otherwise the estimate
+            /// includes commands that did not reach the motor.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_observer_reset_ $f>](
                 observer: *mut [<bowden_observer_ $f>],

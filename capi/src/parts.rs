@@ -4,8 +4,8 @@ use crate::result::{bowden_fault, bowden_result, of_status, Refused};
 use core_bowden::control::{Applied, Fallback, Limits, Output};
 use core_bowden::effect::Motion;
 
-/// Value of `after` in a fallback that holds the last good command indefinitely. Use it in a
-/// simulation, not on a machine.
+/// Value of `after` in a fallback that holds the last good command indefinitely. Use this value in
+/// a simulation, not on a machine.
 pub const BOWDEN_HOLD_FOR_EVER: u32 = 0xffff_ffff;
 
 /// Active limit of a command or of a drive.

@@ -9,9 +9,9 @@ use crate::{
 use crate::{bowden_saturation, limit_of_drive};
 use core_bowden::control::{Applied, Output, Pid, PidInput, PidState, PidTerms};
 
-/// Size in 64-bit words.
+/// Size of bowden_pid_f32 in 64-bit words.
 pub const BOWDEN_PID_F32_WORDS: usize = 24;
-/// Size in 64-bit words.
+/// Size of bowden_pid_f64 in 64-bit words.
 pub const BOWDEN_PID_F64_WORDS: usize = 40;
 
 macro_rules! pid {
@@ -21,13 +21,13 @@ macro_rules! pid {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq)]
             pub struct [<bowden_pid_sample_ $f>] {
-                /// Time since the last call [s], even if that sample was bad.
+                /// Time since the previous call [s], even if the sample of that call was bad.
                 pub dt: $f,
                 /// Reference y_r [output unit], such as [N*m].
                 pub reference: $f,
                 /// Measured output y [output unit], such as [N*m].
                 pub measured: $f,
-                /// Measured distal velocity [rad/s]. Only a PIV uses it.
+                /// Measured distal velocity [rad/s]. Only a PIV controller uses this field.
                 pub velocity: $f,
                 /// Feed-forward [command unit], added to the command before the limits.
                 pub feed_forward: $f,
@@ -56,16 +56,16 @@ macro_rules! pid {
                 pub proportional: $f,
                 /// -k_i*integral(e) after anti-windup [command unit].
                 pub integral: $f,
-                /// -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV.
+                /// -k_d*d/dt(y - c*y_r), filtered [command unit]; 0 for a PIV controller.
                 pub derivative: $f,
-                /// -k_d*v_d [command unit]; 0 for a PI or PID.
+                /// -k_d*v_d [command unit]; 0 for a PI or PID controller.
                 pub velocity: $f,
                 /// Feed-forward [command unit].
                 pub feed_forward: $f,
                 /// Command before limiting [command unit].
                 pub unlimited: $f,
-                /// 1 if the applied command differs from `unlimited`, otherwise 0. Causes are the
-                /// range, the slew-rate limit, the safe command and bowden_pid_applied.
+                /// 1 if the applied command differs from `unlimited`, otherwise 0. Possible causes
+                /// are the range, the slew-rate limit, the safe command and bowden_pid_applied.
                 pub saturated: u32,
             }
 
@@ -97,12 +97,12 @@ macro_rules! pid {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Writes the settings of a PI, equation (15). All fields without an argument have
-            /// their defaults.
+            /// Writes the settings of a PI controller, equation (15). All fields without an
+            /// argument receive their defaults.
             ///
             /// `low` and `high` [command unit] are the command limits, and `longest_dt` [s] is the
-            /// longest dt of a good sample. `safe` [command unit] is the command from the
-            /// `after`-th consecutive bad sample onward. bowden_pid_init checks the values.
+            /// longest dt of a good sample. `safe` [command unit] is applied from the `after`-th
+            /// consecutive bad sample onward. bowden_pid_init checks the values.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_settings_pi_ $f>](
                 settings: *mut [<bowden_pid_settings_ $f>],
@@ -128,7 +128,7 @@ macro_rules! pid {
 
             /// Checks the settings and initialises the controller.
             ///
-            /// `about` may be null; otherwise it receives the name of a rejected setting.
+            /// If `about` is not null, it receives the name of a rejected setting.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_init_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -200,13 +200,13 @@ macro_rules! pid {
                 })())
             }
 
-            /// Reports the limit at which the drive was after the last step, one of
+            /// Reports the limit that the drive reached after the last step, one of
             /// bowden_saturation. Use this function for a drive that does not report its command,
             /// such as the inner loop of a cascade. Otherwise use bowden_pid_applied.
             ///
             /// Call this function between two steps. The last change of the integral towards the
-            /// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. Another value of
-            /// `saturation` is an error (BOWDEN_RESULT_ERROR_CHOICE).
+            /// limit is then reversed, except with BOWDEN_ANTI_WINDUP_NONE. If `saturation` is not
+            /// in bowden_saturation, the result is BOWDEN_RESULT_ERROR_CHOICE.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_at_limit_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -224,8 +224,8 @@ macro_rules! pid {
             /// Sets `saturation` to the limit that was active at the last good sample, one of
             /// bowden_saturation.
             ///
-            /// In a cascade whose inner gains are positive, pass this value to bowden_pid_at_limit
-            /// of the outer loop.
+            /// In a cascade, pass this value to bowden_pid_at_limit of the outer loop if the gains
+            /// of the inner loop are positive.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_get_saturation_ $f>](
                 pid: *const [<bowden_pid_ $f>],
@@ -244,8 +244,9 @@ macro_rules! pid {
                 })())
             }
 
-            /// Acknowledges the fault. The next good sample closes the loop again and starts from
-            /// the safe command. The call has no effect unless the safe command is latched.
+            /// Acknowledges the fault. At the next good sample, the controller closes the loop
+            /// again, starting from the safe command. The call has no effect unless the safe
+            /// command is latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_acknowledge_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -273,9 +274,10 @@ macro_rules! pid {
             /// Prepares a stored object for a restart after a power-off. Call this function before
             /// the first step. Otherwise the step continues from the stored command.
             ///
-            /// The command becomes the value nearest to zero within the limits, and the first good
-            /// sample starts from it without a jump. The integral, the filtered derivative and the
-            /// stored samples are cleared. A latched safe command stays latched.
+            /// The command becomes the value nearest to zero within the limits. At the first good
+            /// sample, the controller starts from this command without a jump. The integral, the
+            /// filtered derivative and the stored samples are cleared. A latched safe command stays
+            /// latched.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_restore_ $f>](
                 pid: *mut [<bowden_pid_ $f>],
@@ -316,11 +318,12 @@ macro_rules! pid {
                 })())
             }
 
-            /// Changes the settings of a running loop without a jump in the command. On an error
-            /// the loop continues with the old settings. `about` may be null.
+            /// Changes the settings of a running loop without a jump in the command. After an
+            /// error, the loop continues with the old settings. `about` may be null.
             ///
-            /// If the new range excludes the applied command, the next command is the nearest one
-            /// in the range and ignores the slew-rate limit. Therefore narrow a range step by step.
+            /// If the new range excludes the applied command, the next command is the nearest
+            /// command in the range, regardless of the slew-rate limit. Therefore, narrow a range
+            /// in small steps.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_pid_change_ $f>](
                 pid: *mut [<bowden_pid_ $f>],

@@ -20,12 +20,12 @@ pub enum bowden_derivative_source {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_anti_windup {
     /// The integral changes only until the command reaches the end of its range. A change away from
-    /// this limit acts in full.
+    /// this limit is not restricted.
     Conditional = 0,
     /// No anti-windup: the integral winds up.
     None = 1,
-    /// The integral term stays within the command range. This range is widened to include zero and
-    /// the value at which the command reaches its limit.
+    /// The integral term stays within the command range. For this purpose, the range is widened to
+    /// include zero and the integral term at which the command reaches its limit.
     Clamp = 2,
     /// The part of the command that the limits cut off is fed back to the integral with the time
     /// constant `tracking_time`.
@@ -74,12 +74,12 @@ macro_rules! settings {
                 /// this limit.
                 pub integral_limit: $f,
                 /// Deadband [output unit], at least 0: the integral is frozen while |e| is at most
-                /// this value. A deadband wider than the output jump prevents hunting due to static
-                /// friction.
+                /// this value. Static friction can make the output jump past the reference again
+                /// and again (hunting). A deadband wider than this jump prevents hunting.
                 pub deadband: $f,
                 /// Period of an output that wraps [output unit], such as 360 degrees; 0 if the
-                /// output does not wrap. Errors and changes are measured along the shorter way
-                /// round. A period requires b = 1, and a c of 0 or 1.
+                /// output does not wrap. Errors and changes are taken in the shorter direction. A
+                /// period requires b = 1, and c = 0 or c = 1.
                 pub period: $f,
                 /// Range and slew-rate limit of the command.
                 pub limits: [<bowden_limits_ $f>],

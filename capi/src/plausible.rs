@@ -5,9 +5,9 @@ use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use crate::settings::{marked, Marked};
 use core_bowden::signal::{Implausible, Plausible, PlausibleState};
 
-/// Size in 64-bit words.
+/// Size of bowden_plausible_f32 in 64-bit words.
 pub const BOWDEN_PLAUSIBLE_F32_WORDS: usize = 8;
-/// Size in 64-bit words.
+/// Size of bowden_plausible_f64 in 64-bit words.
 pub const BOWDEN_PLAUSIBLE_F64_WORDS: usize = 14;
 
 /// Reason why a sample is implausible.
@@ -24,7 +24,7 @@ pub enum bowden_implausible {
     TooFast = 3,
     /// The sample has kept the same value for too long while the machine moved.
     Stuck = 4,
-    /// A reason that a later version adds.
+    /// Reserved for reasons that a later version adds.
     Other = 5,
 }
 
@@ -72,14 +72,15 @@ macro_rules! plausible {
                 /// check. Do not check the rate of an angle that wraps.
                 pub rate: $f,
                 /// Longest time between two readings of the sensor [s], including jitter; 0 if
-                /// unknown. A repeated reading is then treated as at most this old. This setting
-                /// has no effect without a rate.
+                /// unknown. If it is known, a repeated reading is assumed to be at most this old.
+                /// This setting has no effect without `rate`.
                 pub sample_period: $f,
                 /// Number of repetitions of a reading that indicate a stuck sensor; 0 disables this
                 /// check. The check counts repetitions only while the machine moves.
                 pub stuck_after: u32,
                 /// This dt [s], at least 0, replaces a dt that is longer, negative or not finite.
-                /// With 0, the time after a negative or non-finite dt is unknown.
+                /// With 0, no dt is replaced, and the time after a negative or non-finite dt is
+                /// unknown.
                 pub longest_dt: $f,
             }
 
@@ -139,8 +140,8 @@ macro_rules! plausible {
                 unsafe { told(parts().and_then(|inner| Ok(start(plausible, inner)?)), about) }
             }
 
-            /// Checks a sample [signal unit] taken `dt` [s] after the last call. Set `moves` to 1
-            /// while the machine moves, so that the signal must change.
+            /// Checks a sample [signal unit] taken `dt` [s] after the previous call. Set `moves` to
+            /// 1 while the machine moves and the signal must therefore change.
             ///
             /// The value of an implausible sample is NaN (BOWDEN_RESULT_IMPLAUSIBLE).
             #[no_mangle]

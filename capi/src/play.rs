@@ -1,12 +1,12 @@
-//! A play at the hysteresis input, so that input noise does not drive the hysteresis.
+//! Play operator, which keeps input noise from driving a hysteresis model.
 
 use crate::object::{kept, start, writable, write, Object};
 use crate::result::{bowden_about, bowden_result, code, told, Refused};
 use core_bowden::signal::{Play, PlayState};
 
-/// Size in 64-bit words.
+/// Size of bowden_play_f32 in 64-bit words.
 pub const BOWDEN_PLAY_F32_WORDS: usize = 4;
-/// Size in 64-bit words.
+/// Size of bowden_play_f64 in 64-bit words.
 pub const BOWDEN_PLAY_F64_WORDS: usize = 6;
 
 macro_rules! play {
@@ -25,8 +25,8 @@ macro_rules! play {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Initialises a play; see bowden_play_step. `half_width` [input unit] is at least 0;
-            /// with 0 the output is the input. `about` may be null.
+            /// Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
+            /// least 0; with 0 the output is the input. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_init_ $f>](
                 play: *mut [<bowden_play_ $f>],
@@ -46,9 +46,9 @@ macro_rules! play {
             ///     y+ = clamp(y, x - r, x + r)
             ///
             /// An oscillation of the input within 2*r does not move the output. At the input of a
-            /// hysteresis, a play prevents reversals due to sensor noise. The first good sample is
-            /// the first output. If the input is not finite, the last output is held
-            /// (BOWDEN_RESULT_HELD).
+            /// hysteresis model, a play operator prevents reversals due to sensor noise. The first
+            /// output equals the first good sample. If the input is not finite, the last output is
+            /// held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_step_ $f>](
                 play: *mut [<bowden_play_ $f>],

@@ -6,9 +6,9 @@ use crate::settings::{marked, Marked};
 use crate::{bowden_motion_f32, bowden_motion_f64};
 use core_bowden::signal::{Rates, RatesState};
 
-/// Size in 64-bit words.
+/// Size of bowden_rates_f32 in 64-bit words.
 pub const BOWDEN_RATES_F32_WORDS: usize = 10;
-/// Size in 64-bit words.
+/// Size of bowden_rates_f64 in 64-bit words.
 pub const BOWDEN_RATES_F64_WORDS: usize = 16;
 
 macro_rules! rates {
@@ -27,8 +27,9 @@ macro_rules! rates {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Settings of the velocity and acceleration estimates. Both lags have the same time
-            /// constant (see bowden_rates_step).
+            /// Settings of the velocity and acceleration estimates. Velocity and acceleration are
+            /// filtered by two first-order lags with the same time constant (see
+            /// bowden_rates_step).
             ///
             /// By default the position does not wrap, and `longest_gap` is ten time constants. You
             /// must set `time_constant`.
@@ -39,8 +40,8 @@ macro_rules! rates {
                 pub init_mark: u32,
                 /// Time constant of both lags [s], positive.
                 pub time_constant: $f,
-                /// Period [channel unit] of a position that wraps, such as a counter; 0 if the
-                /// position does not wrap.
+                /// Period [channel unit] of a position that wraps, such as a counter reading; 0 if
+                /// the position does not wrap.
                 pub period: $f,
                 /// Longest gap between two good samples that the estimates bridge [s]; 0 means ten
                 /// time constants.
@@ -98,7 +99,7 @@ macro_rules! rates {
             }
 
             /// Computes the motion at `position` [channel unit]. `dt` [s] is the time since the
-            /// last call, even if that sample was bad.
+            /// previous call, even if the sample of that call was bad.
             ///
             ///     s  = 1 - exp(-h/time_constant),  h = time since the last good sample
             ///     v+ = v + s*((x - x_last)/h - v)

@@ -8,9 +8,9 @@ use core_bowden::control::{
     Fault, Output, PiRule, Relay, RelaySettings, RelayState, Status, Ultimate,
 };
 
-/// Size in 64-bit words.
+/// Size of bowden_relay_f32 in 64-bit words.
 pub const BOWDEN_RELAY_F32_WORDS: usize = 26;
-/// Size in 64-bit words.
+/// Size of bowden_relay_f64 in 64-bit words.
 pub const BOWDEN_RELAY_F64_WORDS: usize = 44;
 
 /// Phase of a relay experiment.
@@ -31,22 +31,23 @@ pub enum bowden_relay_phase {
 pub enum bowden_relay_failure {
     /// The experiment has not failed.
     None = 0,
-    /// There were too many bad samples. `fault` is the fault of the last one.
+    /// There were too many bad samples. `fault` describes the last one.
     BadSamples = 1,
     /// The distance of the output from the reference exceeded `most_deviation`. Choose a smaller
     /// amplitude, a centre that holds the reference, or the other sign of the amplitude.
     OutputOutOfRange = 2,
-    /// There was no complete cycle within `longest_time`. The amplitude does not move the output
-    /// through the reference, its sign is wrong, or the time is too short for two periods.
+    /// There was no complete cycle within `longest_time`. Possible causes: the amplitude is too
+    /// small to move the output through the reference, its sign is wrong, or the time is too short
+    /// for two periods.
     NoOscillation = 3,
-    /// The cycles did not agree within `longest_time`. The time is too short, the noise exceeds the
-    /// hysteresis, or a cycle has fewer than 2/agreement samples.
+    /// The cycles did not agree within `longest_time`. Possible causes: the time is too short, the
+    /// noise exceeds the hysteresis, or a cycle has fewer than 2/agreement samples.
     TimeOut = 4,
-    /// A reason that a later version adds.
+    /// Reserved for reasons that a later version adds.
     Other = 5,
 }
 
-/// Tuning rule for PI gains from the ultimate gain and period.
+/// Tuning rule that computes PI gains from the ultimate gain and the ultimate period.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_pi_rule {
@@ -91,13 +92,13 @@ macro_rules! relay {
                 /// Distance from the centre to each level [command unit], nonzero, with the sign of
                 /// the plant gain.
                 pub amplitude: $f,
-                /// Hysteresis of the relay [output unit], at least 0. It must be at least the peak
-                /// of the noise.
+                /// Hysteresis of the relay [output unit], at least 0. Choose at least the peak
+                /// value of the measurement noise.
                 pub hysteresis: $f,
                 /// Largest distance of the output from the reference [output unit], above
-                /// `hysteresis`. One sample beyond this distance ends the experiment.
+                /// `hysteresis`. A single sample beyond this distance ends the experiment.
                 pub most_deviation: $f,
-                /// Number of consecutive cycles in the average, at least 2.
+                /// Number of consecutive cycles that are averaged, at least 2.
                 pub cycles: u32,
                 /// Largest relative deviation of a cycle from the mean of earlier cycles, above 0
                 /// and below 1.
@@ -159,8 +160,7 @@ macro_rules! relay {
             #[repr(C)]
             #[derive(Debug, Clone, Copy, PartialEq, Default)]
             pub struct [<bowden_ultimate_ $f>] {
-                /// Ultimate gain [command unit/output unit], with the sign of the amplitude of the
-                /// relay.
+                /// Ultimate gain [command unit/output unit], with the sign of the relay amplitude.
                 pub gain: $f,
                 /// Ultimate period [s].
                 pub period: $f,
@@ -240,8 +240,8 @@ macro_rules! relay {
 
             /// Checks the settings and starts an experiment. `about` may be null.
             ///
-            /// At the start the output must be near the reference: at the mean command of the
-            /// previous loop, or at rest.
+            /// At the start, the output must be near the reference. Start from rest, or from the
+            /// mean command of the previous loop.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_init_ $f>](
                 relay: *mut [<bowden_relay_ $f>],
@@ -257,13 +257,14 @@ macro_rules! relay {
                 }
             }
 
-            /// Processes one sample. `dt` [s] is the time since the last call, even if that sample
-            /// was bad. `measured` is in [output unit]. Call this function while the phase is
-            /// BOWDEN_RELAY_PHASE_RUNNING.
+            /// Processes one sample. `dt` [s] is the time since the previous call, even if the
+            /// sample of that call was bad. `measured` is in [output unit]. Call this function
+            /// while the phase is BOWDEN_RELAY_PHASE_RUNNING.
             ///
             /// A bad sample holds the command (BOWDEN_RESULT_HELD). After a failure the safe
-            /// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every sample
-            /// consumes part of `longest_time`, so the experiment always ends.
+            /// command is applied until bowden_relay_acknowledge (BOWDEN_RESULT_SAFE). Every
+            /// sample, including a bad one, counts towards `longest_time`, so the experiment always
+            /// ends.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_step_ $f>](
                 relay: *mut [<bowden_relay_ $f>],
@@ -313,8 +314,8 @@ macro_rules! relay {
             /// (otherwise BOWDEN_RESULT_ERROR_CHOICE).
             ///
             /// A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
-            /// The result is zero until the experiment is done. With these gains, continue with
-            /// bowden_pid_resume from the applied command.
+            /// The result is zero until the experiment is done. To continue with these gains, call
+            /// bowden_pid_resume with the applied command.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_relay_gains_ $f>](
                 ultimate: *const [<bowden_ultimate_ $f>],

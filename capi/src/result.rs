@@ -14,18 +14,19 @@ pub enum bowden_result {
     /// Success. For a step: a good sample.
     Ok = 0,
     /// A good sample, but velocity and acceleration started from zero less than five time constants
-    /// ago, or the position has changed fewer than two times.
+    /// ago, or the position has not yet changed twice.
     Settling = 1,
-    /// A good position after an unknown time. Velocity and acceleration are held.
+    /// A good position, but the time since the last good one is unknown. Velocity and acceleration
+    /// are held.
     Resumed = 2,
-    /// Adaptive law: the term of a bad regressor was omitted, and the estimates do not change.
+    /// Adaptive law: the term of a bad regressor was omitted, and the estimates did not change.
     /// Iterative learning: the error of this sample, or of the cell before a jump, was ignored.
     Degraded = 3,
     /// A bad sample. The state is unchanged, and the last good command or value is held.
     Held = 4,
     /// Too many bad samples. The safe command is applied until the fault is acknowledged.
     Safe = 5,
-    /// No count for longer than the longest gap, so the velocity is zero.
+    /// There was no count for longer than the longest gap, so the velocity is zero.
     Stopped = 6,
     /// The sample is implausible, so the value is NaN.
     Implausible = 7,
@@ -41,12 +42,12 @@ pub enum bowden_result {
     ErrorOutOfRange = -5,
     /// The settings or arguments together violate a condition.
     ErrorInadmissible = -6,
-    /// There are too many items.
+    /// There are too many items, such as channels or cells.
     ErrorCapacity = -7,
     /// A setting has a value that is not in its enum.
     ErrorChoice = -8,
-    /// The bytes of a model are damaged or surplus, they have the other precision or another
-    /// version, or the model has too many terms.
+    /// The bytes of a model are damaged or too many, or the model is of the other precision or of
+    /// another version, or has too many terms.
     ErrorModel = -9,
     /// The settings were not initialised with their macro NAME_INIT.
     ErrorSettings = -10,
@@ -80,13 +81,13 @@ pub enum bowden_fault {
     Overflow = 10,
     /// The position.
     Position = 11,
-    /// A fault that a later version adds.
+    /// Reserved for faults that a later version adds.
     Other = 12,
     /// The phase of the cycle is outside 0 to 1, or it has jumped.
     Phase = 13,
 }
 
-/// Name of the rejected setting, or the violated condition.
+/// Name of the rejected setting, or violated condition.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct bowden_about {

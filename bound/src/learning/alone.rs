@@ -14,9 +14,9 @@ pub(super) struct Loop {
 }
 
 impl Loop {
-    /// Number of regions in the proof that
-    /// `s·D~ + f·alpha~·(1 + c/K·s)·e^(−theta·s)·(k_p·s + k_i)` has no zero on the right, for
-    /// any plant; without the s of the first term for a P.
+    /// Number of regions in the proof that `s·D~ + f·alpha~·(1 + c/K·s)·e^(−theta·s)·(k_p·s + k_i)`
+    /// has no zero in the right half-plane, for any plant. For a P controller, the first term has
+    /// no factor s.
     pub(super) fn is_stable(&self, all: &Plants) -> Option<u32> {
         let middle = all.middle();
         // The plant in the middle, without latency, joint and hysteresis.
@@ -33,8 +33,9 @@ impl Loop {
         excluded(self, first, *all, highest)
     }
 
-    /// A frequency above which, for all `|s|` on the right, the first term is the greater one.
-    /// Both are divided by `|s|³`; then one falls and the other grows with `1/|s|`.
+    /// A frequency above which the first term is the larger term everywhere in the right
+    /// half-plane. Both terms are divided by `|s|³`. Then one term decreases and the other
+    /// increases with `1/|s|`.
     fn highest(&self, hull: &Plants) -> Option<f64> {
         let mut r = self.natural_frequency;
         for _ in 0..64 {
@@ -48,7 +49,8 @@ impl Loop {
         None
     }
 
-    /// `|D~|/|s|²` at least and `f·alpha~·|1 + c/K·s|/|s|²` at most, for all `|s| >= 1/x` on the right.
+    /// Lower bound on `|D~|/|s|²` and upper bound on `f·alpha~·|1 + c/K·s|/|s|²`, for all
+    /// `|s| >= 1/x` in the right half-plane.
     fn shares(&self, hull: &Plants, x: Span) -> Option<(Span, Span)> {
         let (curvature, rate) = hull.denominator();
         let gain = Span::at(hull.gain.high.abs().max(hull.gain.low.abs()));
@@ -57,12 +59,12 @@ impl Loop {
         (least.high.is_finite() && answer.high.is_finite()).then_some((least, answer))
     }
 
-    /// `|k_p + k_i/s|` at most.
+    /// Upper bound on `|k_p + k_i/s|`.
     fn law(&self, x: Span) -> Span {
         Span::at(self.k_p.abs()) + Span::at(self.k_i.abs()) * x
     }
 
-    /// Upper bound on |G| above the cells' Nyquist frequency; `None` if there is no bound.
+    /// Upper bound on |G| above the Nyquist frequency of the cells; `None` if there is no bound.
     pub(super) fn beyond(&self, all: &Plants, cell: Span) -> Option<f64> {
         let x = Span::at(cell.high) * Span::at(core::f64::consts::PI).recip();
         let (least, most) = self.shares(all, Span::at(x.high))?;

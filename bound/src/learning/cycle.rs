@@ -4,11 +4,11 @@ use super::alone::Loop;
 use crate::plants::Plants;
 use crate::span::{Plane, Span};
 
-/// Sum over all images of `1/|x + pi·k|³` for x from 0 to pi/2: `(2/pi)³` of the nearest, 0.053 of all
-/// others.
+/// Sum over all images of `1/|x + pi·k|³` for x from 0 to pi/2: `(2/pi)³` for the nearest image and
+/// 0.053 for all others.
 const IMAGES: f64 = 0.32;
 
-/// The common numbers of all regions.
+/// The numbers that all regions share.
 pub(super) struct Cycle<'a> {
     pub(super) closed: &'a Loop,
     pub(super) gain: f64,
@@ -16,13 +16,14 @@ pub(super) struct Cycle<'a> {
     pub(super) lead: f64,
     pub(super) width: f64,
     pub(super) factor: f64,
-    /// Half the phase over a cell, of the cycle's own frequency and of the cells' Nyquist.
+    /// Half of the phase change over a cell, at the frequency of the cycle and at the Nyquist
+    /// frequency of the cells.
     pub(super) half_phases: Span,
-    /// `gain·|G|` above the cells' Nyquist frequency, at most.
+    /// Upper bound on `gain·|G|` above the Nyquist frequency of the cells.
     pub(super) images: f64,
 }
 
-/// Frequencies \[rad/s\], times of a cell, and plants.
+/// A region of frequencies \[rad/s\], cell durations and plants.
 #[derive(Clone, Copy)]
 pub(super) struct Boxed {
     pub(super) frequency: Span,
@@ -33,8 +34,8 @@ pub(super) struct Boxed {
 impl Cycle<'_> {
     /// Whether `|H| <= factor`, without a division by a number that may be small. Let
     /// `W = e^(−jw·lead·T)/G`, `a = gain·S³`, and let s be the part of the factor that Q and the
-    /// images do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not above zero.
-    /// (With a region around H itself, the proof needs many more regions.)
+    /// images do not use. The inequality holds if `|kept·W − a|² − s²·|W|²` is not positive. (If H
+    /// itself were enclosed, the proof would need many more regions.)
     pub(super) fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
         let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {
@@ -73,9 +74,9 @@ impl Cycle<'_> {
         })
     }
 
-    /// Whether `|H| < 1`, from frequency zero on, where 1/G of a PI is unbounded. Let
+    /// Whether `|H| < 1` for frequencies from zero, where 1/G of a PI controller is unbounded. Let
     /// `W = e^(−jw·L)/G` and `m >= 0.32·sin³` of the images. The inequality holds if
-    /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is below zero. Here Re(W) is finite,
+    /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is negative. Here Re(W) is finite,
     /// `Re(e^(−jw·L)·(1/P~ + k_p)) − k_i·sin(w·L)/w`, and so is `|w·W|`.
     pub(super) fn is_below_one(&self, all: &Boxed) -> bool {
         let (w, one) = (all.frequency, Span::at(1.0));
@@ -112,7 +113,8 @@ impl Cycle<'_> {
         Span::at(self.gain) * seen * seen.square()
     }
 
-    /// Q at most: `sin(M·x)/(M·sin(x))` is 1 at most, and falls up to its first zero at `x = pi/M`.
+    /// Upper bound on Q. `sin(M·x)/(M·sin(x))` is at most 1 and decreases up to its first zero at
+    /// `x = pi/M`.
     fn passed(&self, x: Span) -> f64 {
         let first = self.width * x.high < core::f64::consts::PI;
         let x = if first { Span::at(x.low) } else { x };
@@ -150,7 +152,7 @@ impl Cycle<'_> {
             }
     }
 
-    /// Two halves, along the number that moves 1/G most across the region.
+    /// The two halves of the region, along the parameter that changes 1/G most.
     pub(super) fn halves(&self, all: &Boxed) -> [Boxed; 2] {
         let (w, plants) = (all.frequency.middle(), &all.plants);
         let [gain, slow, damping, joint, slope, latency] = [
@@ -206,7 +208,7 @@ fn sine(phase: Span) -> Span {
     early(phase).im
 }
 
-/// `sin(x)/x` for x from 0 on, by its series where x is small.
+/// `sin(x)/x` for x ≥ 0, from its series if x is small.
 fn sinc(x: Span) -> Span {
     if x.low > 0.1 {
         return sine(x) * x.recip();

@@ -12,9 +12,9 @@ pub(super) struct Adapts {
     gain: Enclosure,
     /// \[1/s\]
     leakage: Enclosure,
-    /// From the prior \[unit of the estimate\].
+    /// Largest distance from the prior \[unit of the estimate\].
     distance: Enclosure,
-    /// The distance over the bound of a switching leakage.
+    /// The distance divided by the bound of a switching leakage.
     bounds: Enclosure,
     /// Largest magnitude \[unit of the estimate\].
     most: Enclosure,

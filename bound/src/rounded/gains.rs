@@ -9,7 +9,7 @@ use crate::{Interval, Plant};
 use bowden::control::{AdaptiveSettings, Form};
 use bowden::{Error, Real};
 
-/// Most regressors of a law that is examined.
+/// Maximum number of regressors in a law that is examined.
 pub(super) const MOST: usize = 16;
 
 /// One regressor.
@@ -42,7 +42,7 @@ pub(super) struct Gains {
     pub(super) g: [Enclosure; 2],
     /// Largest delta_hat.
     pub(super) delta: Enclosure,
-    /// At least `T(s/epsilon)/s`.
+    /// Upper bound on `T(s/epsilon)/s`.
     pub(super) slope: Enclosure,
     pub(super) z_limit: Enclosure,
     pub(super) command: Enclosure,
@@ -151,7 +151,7 @@ fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<
     Ok(step)
 }
 
-/// The bounds on beta_hat, above zero, and on delta_hat, not below zero.
+/// The bounds on beta_hat, which must be positive, and on delta_hat, which must not be negative.
 fn boxes<T: Real, const N: usize>(
     settings: &AdaptiveSettings<T, N>,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), Error> {

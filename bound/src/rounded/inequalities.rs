@@ -38,8 +38,9 @@ pub enum Named {
     /// frozen.
     Slack,
     /// The change of the command in a step `<=` the change that the slew-rate limit allows, so this
-    /// limit is not active. `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S +
-    /// lambda·Z))/alpha⁻` plus the rounding errors `E_c` of the command `<= h·slew`.
+    /// limit is not active.
+    /// `h·(lambda·(W + g⁺·(k·S + delta_hat)) + g⁺·Z + r' + lambda·(S + lambda·Z))/alpha⁻` plus the
+    /// rounding errors `E_c` of the command `<= h·slew`.
     Slew,
 }
 

@@ -24,7 +24,7 @@ use gains::Gains;
 ///
 /// Each inequality is computed in integers, rounded outwards, so the proof does not rely on
 /// floating-point arithmetic. The computation needs no heap, so a controller can check its own
-/// gains at start-up. Its computing time on a microcontroller has not been measured.
+/// gains at start-up. The computing time on a microcontroller has not been measured.
 ///
 /// *Proof.* The exact step stays in the box with a margin, as in
 /// [`PeakSampled`](super::PeakSampled). The rounding errors ([`Roundings`]) are smaller than the
@@ -43,7 +43,7 @@ use gains::Gains;
 /// - the plant is `y = alpha·u - theta'x - D` without dynamics, where y is the value that the
 ///   controller reads (the quantisation of the sensor is part of D and of its rate);
 /// - `dt` is the step of the form at every sample;
-/// - the next reference is the true one;
+/// - the next reference that the controller receives is correct;
 /// - there is no feed-forward;
 /// - no sample is bad;
 /// - the initial errors are in the box.
@@ -69,8 +69,8 @@ use gains::Gains;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PeakRounded {
-    /// S \[N·m\]: the bound on `|s|`, which is the smallest value with a proof, to a relative
-    /// accuracy of 2^-14.
+    /// S \[N·m\]: the bound on `|s|`. This is the smallest value for which the proof succeeds, to a
+    /// relative accuracy of 2^-14.
     pub s: Enclosure,
     /// Z \[N·m·s\]: the bound on `|z|`.
     pub z: Enclosure,
@@ -92,7 +92,7 @@ pub struct PeakRounded {
     pub slew: Option<Inequality>,
 }
 
-/// Doublings and halvings of the search for S.
+/// Number of doublings and halvings in the search for S.
 const DOUBLINGS: u32 = 20;
 const HALVINGS: u32 = 80;
 
@@ -121,7 +121,7 @@ impl PeakRounded {
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if these settings and
-    /// this plant give no inequality; [`Error::Capacity`] for more than 16 regressors.
+    /// this plant give no inequality. [`Error::Capacity`] for more than 16 regressors.
     pub fn examine<T: Real, const N: usize>(
         settings: &AdaptiveSettings<T, N>,
         plant: &Plant<f64, N>,
@@ -194,7 +194,7 @@ impl PeakRounded {
         }
     }
 
-    /// Whether the inequalities hold that a greater S can satisfy.
+    /// Whether all inequalities hold that a larger S can satisfy.
     fn grows_into(&self) -> bool {
         // Two inequalities of the step are the same at every S; a greater S violates the last
         // three.

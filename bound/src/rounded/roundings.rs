@@ -12,7 +12,7 @@ struct Computed {
 }
 
 impl Computed {
-    /// An input float: not yet rounded.
+    /// An input, which has no rounding error yet.
     fn given(most: Enclosure) -> Self {
         Self {
             most,
@@ -104,10 +104,10 @@ pub struct Roundings {
 
 /// The rounding errors while `|s| <= S`, `|z| <= Z` and `|u| <= command`.
 ///
-/// Line by line the computation of `Adaptive::step`; a test compares the lines with the step,
-/// bit for bit. The lag and z are compensated sums: `two_sum` is exact. The carry of a sum is
-/// therefore the rounding error of its last addition, at most half a unit in the last place of
-/// the sum.
+/// The lines follow the computation of `Adaptive::step`. A test compares them with the step, bit
+/// for bit. The lag and z are compensated sums, because `two_sum` is exact. The carry of a sum is
+/// therefore the rounding error of its last addition, at most half a unit in the last place of the
+/// sum.
 pub(super) fn roundings(
     gains: &Gains,
     s: Enclosure,
@@ -155,7 +155,8 @@ pub(super) fn roundings(
     }
 }
 
-/// Every number of the step is a sum of some of these, or one of them less a factor below one.
+/// Every number of the step is a sum of some of these numbers, or one of them times a factor below
+/// one.
 fn largest(
     gains: &Gains,
     s: Enclosure,
@@ -173,7 +174,7 @@ fn largest(
     (all + updates(gains, gains.lambda * s, ubar)) * Enclosure::power(1)
 }
 
-/// The same for the estimates' updates, whose inputs are `lambda·s` and its factors.
+/// The same bound for the updates of the estimates, whose inputs are `lambda·s` and its factors.
 fn updates(gains: &Gains, pull: Enclosure, ubar: Enclosure) -> Enclosure {
     let [beta, delta] = &gains.adapts;
     let mut all = pull + beta.numbers(pull * ubar, gains.step) + delta.numbers(pull, gains.step);

@@ -3,17 +3,17 @@
 use super::sizes::factor;
 use super::{Column, Mode, Record, RecordError};
 
-/// Whether two texts name one unit, `Nm` and `N·m` for example.
+/// Whether two texts name the same unit, for example `Nm` and `N·m`.
 #[must_use]
 pub fn is_same_unit(one: &str, other: &str) -> bool {
     one == other || factor(one, other) == Some(1.0)
 }
 
-/// Brings all records to the channels and the units of the first one.
+/// Converts all records to the channels and units of the first record.
 ///
 /// # Errors
 /// A message with file and column if a mode, a channel or a unit differs, or if two files contain
-/// the same samples. Counted twice, these samples would look like two experiments that agree.
+/// the same samples. The same samples twice would look like two experiments that agree.
 pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
     let Some((first, others)) = records.split_first_mut() else {
         return Ok(());
@@ -85,7 +85,7 @@ fn follow(first: &Record, other: &mut Record) -> Result<(), RecordError> {
     Ok(())
 }
 
-/// Converts a column to the unit of `whence`, and returns a note if this changes its values.
+/// Converts a column to the unit of `whence`, and returns a note if the values change.
 ///
 /// # Errors
 /// One line with file and column if the column has no unit, or a unit of another kind.
@@ -104,7 +104,8 @@ pub fn to_unit(
     convert(&wanted, column, whence).map_err(|error| error.in_file(file))
 }
 
-/// Converts a column to the unit of its namesake; adds a note if this changes its values.
+/// Converts a column to the unit of the column with the same name, and returns a note if the values
+/// change.
 fn convert(first: &Column, other: &mut Column, path: &str) -> Result<Option<String>, RecordError> {
     if first.unit == other.unit {
         return Ok(None);

@@ -1,4 +1,5 @@
-//! Angles in radians, for any unit in the file: gravity is sin q and a ripple cos(k·q).
+//! Converts angles to radians from any unit in the file, because effects such as gravity (sin q)
+//! and ripple (cos(k·q)) require radians.
 
 use super::sizes::factor;
 use super::{Column, Mode};
@@ -6,13 +7,13 @@ use super::{Column, Mode};
 /// The unit of every angle that an effect may be a function of.
 const UNIT: &str = "rad";
 
-/// Whether a unit is one of angles.
+/// Whether a unit is a unit of angle.
 pub(super) fn is_angle(unit: &str) -> bool {
     factor(unit, UNIT).is_some()
 }
 
-/// Converts channels, and an input that is a displacement, from another unit of angle to radians;
-/// returns a note. The output is unchanged, because no effect is a function of it.
+/// Converts channels, and an input that is a displacement, from another unit of angle to radians,
+/// and returns notes. The output is unchanged, because no effect is a function of it.
 pub(super) fn in_radians(mode: Mode, input: &mut Column, channels: &mut [Column]) -> Vec<String> {
     let input = Some(input).filter(|_| mode == Mode::Displacement);
     let all = input.into_iter().chain(channels);

@@ -1,9 +1,9 @@
 //! Text whose columns are separated by blanks, as `numpy.savetxt`, MATLAB's `save -ascii` and
 //! gnuplot write it.
 //!
-//! The rows identify such a text: blanks separate the numbers, and the rows contain no tab, `;` or
-//! `,`. The text is then read as if it had tabs. Names may contain blanks: a unit in brackets
-//! belongs to the name before it. If this does not result in one name for each column, two blanks
+//! In such a text, blanks separate the numbers, and the rows contain no tab, `;` or `,`. The text
+//! is then read as if tabs separated the columns. Names may contain blanks. A unit in brackets
+//! belongs to the name before it. If this rule does not give one name for each column, two blanks
 //! separate the names.
 
 use super::layout::TABLE;
@@ -14,8 +14,8 @@ use std::borrow::Cow;
 /// The separator that represents blanks.
 const TAB: u8 = b'\t';
 
-/// The text with a tab instead of the blanks between columns, if blanks separate them; otherwise
-/// unchanged. The line numbers stay the same.
+/// The text with a tab instead of the blanks between columns, if blanks separate the columns.
+/// Otherwise the text is unchanged. The line numbers stay the same.
 pub(super) fn as_tabs(text: &str) -> Cow<'_, str> {
     match width(text) {
         Some(width) => Cow::Owned(tabbed(text, width)),
@@ -23,7 +23,7 @@ pub(super) fn as_tabs(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Number of columns, where blanks separate them.
+/// Number of columns, if blanks separate them.
 fn width(text: &str) -> Option<usize> {
     let (mut rows, mut width) = (0, 0);
     for (_, line) in head(text) {
@@ -39,7 +39,7 @@ fn width(text: &str) -> Option<usize> {
     (rows > 0).then_some(width)
 }
 
-/// Number of cells of a row: two numbers or more, with blanks alone between them.
+/// Number of cells in a row of at least two numbers that only blanks separate.
 fn numbers(line: &str) -> Option<usize> {
     if line.contains(['\t', ';', ',']) {
         return None;

@@ -1,8 +1,9 @@
 //! Times of day and dates as time stamps: `14:03:21.250`, `2026-03-01T14:03:21.250`; and `03:21.2`,
 //! minutes and seconds, as Excel shows times.
 
-/// Seconds of a stamp, from midnight or, with a date, from a day that is the same for all;
-/// `None` where it is none. Years come first or, with points, last: `1/2/2026` is two different days.
+/// Seconds of a time stamp since midnight or, with a date, since a fixed day; `None` if the cell is
+/// not a time stamp. The year is first or, in a date with points, last. `1/2/2026` is ambiguous and
+/// not a time stamp.
 pub(super) fn seconds(cell: &str) -> Option<f64> {
     let (date, time) = match cell.find([' ', 'T']) {
         Some(at) => (Some(&cell[..at]), cell[at + 1..].trim_start()),
@@ -21,7 +22,7 @@ pub(super) fn seconds(cell: &str) -> Option<f64> {
     Some(days as f64 * 86_400.0 + of_day(time)? - ahead)
 }
 
-/// A time and the seconds by which its zone is ahead of UTC: `14:03:21+01:00`, `14:03:21-0500`,
+/// A time, and the offset of its zone from UTC in seconds: `14:03:21+01:00`, `14:03:21-0500`,
 /// `14:03:21Z`.
 fn zone(time: &str) -> Option<(&str, f64)> {
     let Some(at) = time.find(['+', '-']) else {
@@ -57,7 +58,7 @@ pub(super) fn restart(stamp: &str) -> &'static str {
     }
 }
 
-/// `HH:MM:SS`, with decimals behind a point or a comma; `MM:SS` only with decimals, since `12:30`
+/// `HH:MM:SS`, with decimals after a point or a comma. `MM:SS` requires decimals, because `12:30`
 /// may be hours and minutes.
 fn of_day(time: &str) -> Option<f64> {
     let parts: Vec<&str> = time.split(':').collect();
@@ -80,8 +81,8 @@ fn of_day(time: &str) -> Option<f64> {
     Some(f64::from(60 * minutes) + seconds)
 }
 
-/// The form to use instead of a cell that is not a time stamp; `None` if it does not look like a
-/// time.
+/// The required form of a cell that looks like a time but is not a valid time stamp; otherwise
+/// `None`.
 pub(super) fn expected(cell: &str) -> Option<&'static str> {
     let digits = cell.starts_with(|c: char| c.is_ascii_digit());
     let upper = cell.to_uppercase();
@@ -97,7 +98,7 @@ pub(super) fn expected(cell: &str) -> Option<&'static str> {
     })
 }
 
-/// Days of a date in the Gregorian calendar.
+/// Number of the day of a date in the Gregorian calendar.
 fn days(date: &str) -> Option<i64> {
     let parts = |separator: char| -> Option<[i64; 3]> {
         let parts: Vec<i64> = date
@@ -127,7 +128,7 @@ fn days(date: &str) -> Option<i64> {
     Some(of_years + (153 * month + 2) / 5 + day - 730_000)
 }
 
-/// Days of a month; `None` if there is no such month.
+/// Number of days in a month; `None` if there is no such month.
 pub(super) fn length(year: i64, month: i64) -> Option<i64> {
     let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
     match month {

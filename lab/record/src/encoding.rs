@@ -1,14 +1,14 @@
-//! From bytes to text: UTF-8, UTF-16 or Windows-1252, with or without a byte-order mark.
+//! Decodes text in UTF-8, UTF-16 or Windows-1252, with or without a byte-order mark.
 //!
-//! UTF-8 and UTF-16 can be verified: bytes of another encoding are almost never valid in them.
-//! Otherwise Windows-1252 (which contains Latin-1) is assumed, but only if no non-ASCII character
-//! of the file is UTF-8, and never with control codes.
+//! UTF-8 and UTF-16 can be verified, because bytes in another encoding are almost never valid UTF-8
+//! or UTF-16. Otherwise Windows-1252 (which contains Latin-1) is assumed, but only if no non-ASCII
+//! character of the file is UTF-8, and never with control codes.
 
 use super::error::RecordError;
 use super::limits::PIECES;
 use std::borrow::Cow;
 
-/// UTF-16 with one order of its bytes.
+/// UTF-16 with one byte order.
 #[derive(Clone, Copy)]
 struct Utf16 {
     name: &'static str,
@@ -28,20 +28,20 @@ const BIG: Utf16 = Utf16 {
     unit: u16::from_be_bytes,
 };
 
-/// The characters 0x80 to 0x9f of Windows-1252; the others are those of Latin-1, and U+0080 to
-/// U+009F stand for bytes that it does not define.
+/// The characters 0x80 to 0x9f of Windows-1252. The other characters are the same as in Latin-1.
+/// U+0080 to U+009F represent bytes that Windows-1252 does not define.
 const WINDOWS_1252: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
 ];
 
-/// The text of a record, after its byte-order mark, up to its last row; every line ends with `\n`,
+/// The text of a record from its byte-order mark to its last row. Every line ends with `\n`,
 /// possibly after a `\r`.
 pub(super) struct Decoded<'a> {
     pub(super) text: Cow<'a, str>,
-    /// Which encoding it was, unless UTF-8.
+    /// A note on the encoding, unless it was UTF-8.
     pub(super) note: Option<String>,
-    /// Whether the last line is terminated; otherwise the file may end within it.
+    /// Whether the last line is terminated. Otherwise the file may end within this line.
     pub(super) is_ended: bool,
 }
 
@@ -68,7 +68,7 @@ pub(super) fn is_wide(bytes: &[u8]) -> bool {
     wide(bytes).is_some()
 }
 
-/// Which UTF-16 it is, and the length of its mark.
+/// The byte order of UTF-16, and the length of its byte-order mark.
 fn wide(bytes: &[u8]) -> Option<(Utf16, usize)> {
     let mut both = [LITTLE, BIG].into_iter();
     let marked = both.find(|own| bytes.starts_with(&own.mark));
@@ -76,7 +76,7 @@ fn wide(bytes: &[u8]) -> Option<(Utf16, usize)> {
     marked.or_else(|| unmarked(bytes).map(|own| (own, 0)))
 }
 
-/// UTF-16 of a text that is mostly ASCII: every other byte is NUL.
+/// UTF-16 without a mark, for a text that is mostly ASCII. Every other byte is then NUL.
 fn unmarked(bytes: &[u8]) -> Option<Utf16> {
     let head = &bytes[..bytes.len().min(PIECES) & !1];
     let nul = |side: usize| {
@@ -123,7 +123,7 @@ fn utf_16(bytes: &[u8], own: Utf16) -> Result<Cow<'static, str>, RecordError> {
     }
 }
 
-/// UTF-8, or else Windows-1252.
+/// Decodes UTF-8 or, if this fails, Windows-1252.
 fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordError> {
     let line_of = |offset: usize| {
         1 + bytes[..offset]
@@ -166,8 +166,8 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
     Ok((Cow::Owned(text), Some("Windows-1252 (Latin-1)")))
 }
 
-/// Ends every line with `\n`; rows of separators alone, which spreadsheets leave at the end,
-/// are no rows.
+/// Ends every line with `\n`. Rows that contain only separators, which spreadsheets leave at the
+/// end, are removed.
 fn lines(text: Cow<'_, str>) -> Cow<'_, str> {
     let cut = |text: &str| -> (usize, usize) {
         let start = text.len() - text.trim_start_matches('\u{feff}').len();

@@ -4,9 +4,9 @@ use std::fmt;
 
 /// Why a record was rejected: ``FILE:LINE: column `NAME`: message``.
 ///
-/// Line and column are omitted if the fault has none (a missing file). The text is always one line:
-/// control characters in names, in the path or in the faulty cell are escaped, and long texts are
-/// shortened.
+/// Line and column are omitted if the error has none, for example if the file is missing. The text
+/// is always one line. Control characters in names, in the path or in the faulty cell are escaped,
+/// and long texts are shortened.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordError {
     file: String,
@@ -16,7 +16,7 @@ pub struct RecordError {
     bad: Option<Bad>,
 }
 
-/// The reason why `--drop-bad` leaves out a row.
+/// The reason why `--drop-bad` omits a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bad {
     /// A cell without a value.
@@ -38,7 +38,7 @@ impl RecordError {
         }
     }
 
-    /// An error at a line of the file; 0 if it does not belong to one line.
+    /// An error at a line of the file. The line is 0 if the error does not belong to one line.
     pub(super) fn at(line: usize, message: impl Into<String>) -> Self {
         Self {
             line: (line > 0).then_some(line),
@@ -53,7 +53,7 @@ impl RecordError {
         }
     }
 
-    /// The same place with another message.
+    /// An error at the same position with another message.
     pub(super) fn but(self, message: String) -> Self {
         Self { message, ..self }
     }
@@ -65,7 +65,7 @@ impl RecordError {
         }
     }
 
-    /// How `--drop-bad` would treat it.
+    /// The reason for which `--drop-bad` would omit the row.
     pub(super) fn bad(&self) -> Option<Bad> {
         self.bad
     }
@@ -77,12 +77,12 @@ impl RecordError {
         }
     }
 
-    /// The file as given, or its label.
+    /// The path of the file as it was given, or the label.
     pub fn file(&self) -> &str {
         &self.file
     }
 
-    /// Line in the file, from 1; for a binary file, the row.
+    /// Line in the file, counted from 1; in a binary file, the row.
     pub fn line(&self) -> Option<usize> {
         self.line
     }
@@ -113,9 +113,10 @@ impl fmt::Display for RecordError {
 
 impl std::error::Error for RecordError {}
 
-/// Names longer than this are shortened in messages.
+/// Maximum length of a name in messages. Longer names are shortened.
 pub(super) const NAME_LENGTH: usize = 40;
-/// Cells longer than this are shortened in messages, and lists with more names.
+/// Maximum length of a cell, and of a list of names, in messages. Longer cells and lists are
+/// shortened.
 pub(super) const SHOWN: usize = 24;
 
 /// A list of names, and how many more there are.

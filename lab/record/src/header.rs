@@ -4,17 +4,17 @@ use super::error::{listed, shown, RecordError, NAME_LENGTH};
 use super::text::Rows;
 use super::{number, sizes, units};
 
-/// Jaro-Winkler similarity above which one name may have been meant as another: `x` and `x_mm`
+/// Jaro-Winkler similarity above which one name is suggested instead of another: `x` and `x_mm`
 /// have 0.775, `t` and `tau_o` 0.76, `tau_i` and `force` 0.46.
 const ALIKE: f64 = 0.77;
 
-/// A column as named in the header; the name is empty if it has none.
+/// A column of the header. Its name is empty if the column has no name.
 pub(super) struct Named {
     pub(super) name: String,
     pub(super) unit: Option<String>,
     /// The whole cell, `name [unit]`.
     cell: String,
-    /// Whether an option states the unit, which then counts for more than a row of units.
+    /// Whether an option specifies the unit. This unit takes precedence over a row of units.
     pub(super) is_given: bool,
 }
 
@@ -29,14 +29,14 @@ impl Named {
 }
 
 pub(super) struct Header {
-    /// Its line in the file; 0 where the file has no lines.
+    /// Line of the header; 0 if the file has no lines.
     pub(super) line: usize,
     pub(super) columns: Vec<Named>,
 }
 
 impl Header {
-    /// Index of the column of that name, given with or without its unit; in other letters
-    /// (`X` for `x`) where only one column has them.
+    /// Index of the column with this name, with or without its unit. The case of the letters may
+    /// differ (`X` for `x`) if the name is still unique.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         let name = name.trim();
         let exact = self.columns.iter().position(|column| {
@@ -61,8 +61,7 @@ impl Header {
         self.only(|column| units::is_time_alone(&column.name))
     }
 
-    /// Index of the column of a usual name (`t`, `x`), which may have its unit in its name
-    /// (`x_mm`).
+    /// Index of the column with a usual name (`t`, `x`), which may contain a unit (`x_mm`).
     pub(super) fn find_usual(&self, name: &str) -> Option<usize> {
         self.find(name).or_else(|| {
             let stem = |column: &Named| {
@@ -81,7 +80,7 @@ impl Header {
         alike.next().is_none().then_some(index)
     }
 
-    /// The columns of a file that has no text, each with its whole name.
+    /// The columns of a file that is not text, each with its whole name.
     pub(super) fn of(columns: Vec<(String, Option<String>, String)>) -> Result<Self, RecordError> {
         let named = |(name, unit, cell): (String, Option<String>, String)| {
             let (stem, own) = units::split(&name);
@@ -96,8 +95,8 @@ impl Header {
         Ok(Self::with(0, columns))
     }
 
-    /// The columns of a line. Beside a name that ends in `_out` the ending `_in` is that of an input
-    /// and no inch.
+    /// The columns of a line. If another name ends in `_out`, the ending `_in` means an input and
+    /// not inches.
     fn with(line: usize, mut columns: Vec<Named>) -> Self {
         let ends = |column: &Named, ending: &str| column.name.to_lowercase().ends_with(ending);
         if columns.iter().any(|column| ends(column, "_out")) {
@@ -110,13 +109,13 @@ impl Header {
         Self { line, columns }
     }
 
-    /// The columns of a text without names, which are given.
+    /// The columns of a text without names. The names are given.
     pub(super) fn given(line: usize, names: &[String]) -> Self {
         Self::with(line, names.iter().map(|name| of_cell(name)).collect())
     }
 
-    /// Takes the unit that an option states after a column's name, as in `--time 'ms [ms]'`;
-    /// returns a note. A column with the whole name takes precedence.
+    /// Sets the unit that an option specifies after the name of a column, as in `--time 'ms [ms]'`,
+    /// and returns a note. A column with the whole name takes precedence.
     pub(super) fn take_unit(&mut self, option: &str, text: &str) -> Option<String> {
         if self.find(text).is_some() {
             return None;
@@ -152,7 +151,7 @@ impl Header {
     }
 }
 
-/// A cell without the mark of a comment before it.
+/// A cell without the comment mark at its start.
 pub(super) fn without_mark(cell: &str) -> &str {
     cell.trim_start_matches(['#', '%']).trim_start()
 }
@@ -168,8 +167,8 @@ fn of_cell(cell: &str) -> Named {
     }
 }
 
-/// `Force (V)` and `Force (N)` are two columns: if the names are equal and the cells are not, the
-/// cell is the name.
+/// Distinguishes columns such as `Force (V)` and `Force (N)`. If the names are equal but the cells
+/// differ, the cell is the name.
 fn tell_apart(columns: &mut [Named]) {
     let is_apart = |own: &Named| {
         let alike = columns.iter().filter(|other| other.name == own.name);
@@ -182,7 +181,7 @@ fn tell_apart(columns: &mut [Named]) {
     }
 }
 
-/// The first row as names of columns.
+/// Reads the first row as the names of the columns.
 pub(super) fn read(rows: &mut Rows<'_>) -> Result<Header, RecordError> {
     let (text, before) = rows.rest();
     let refuse = |what: &str| {
@@ -235,7 +234,7 @@ pub(super) fn require(header: &Header, name: &str, hint: &str) -> Result<usize, 
     header.find(name).ok_or_else(|| missing(header, name, hint))
 }
 
-/// At most three names that are similar to one that does not exist, in brackets, for a message.
+/// At most three names that are similar to a missing name, in brackets, for a message.
 #[must_use]
 pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let wanted = name.trim().to_lowercase();

@@ -1,13 +1,15 @@
-//! A column that changes only in every k-th row: a slower sensor, sampled and held by the logger.
+//! A column that changes only in every k-th row, because the logger sampled and held a slower
+//! sensor.
 //!
-//! The recorded column lags by half of its own step, which a search would identify as a delay, a
-//! lag or friction. Its updates are true samples; a curve through them replaces the staircase. The
-//! steps of a converter look similar during uniform motion, but then all steps are one count.
+//! The recorded column lags by half of its update period. A search would identify this lag as a
+//! delay, a lag or friction. The updates are true samples, and a curve through them replaces the
+//! staircase. The steps of a converter look similar during uniform motion, but then all steps are
+//! one count.
 
 use super::scale::{quantile, ENOUGH, GRAVE};
 
-/// Replaces stairs with a curve through their edges; returns a note. `step` is the time of one row
-/// \[s\].
+/// Replaces the staircase with a curve through its edges, and returns a note. `step` is the time
+/// between two rows \[s\].
 pub(super) fn smooth(name: &str, values: &mut [f64], step: f64) -> Option<String> {
     let edges: Vec<usize> = (1..values.len())
         .filter(|&i| values[i] != values[i - 1])

@@ -28,7 +28,7 @@ impl Kept {
         }
     }
 
-    /// Whether no stamp is repeated among those of the input, nor among those of the output.
+    /// Whether the time stamps of the input are unique, and so are the time stamps of the output.
     pub(super) fn has_own_stamps(&self) -> bool {
         self.values.iter().take(2).all(|values| {
             let own = values
@@ -40,14 +40,14 @@ impl Kept {
         })
     }
 
-    /// The rows in which the column of an end has a number.
+    /// The rows in which the column of the input or output has a number.
     pub(super) fn readings(&self, end: usize) -> Vec<usize> {
         let values = self.values[end].iter().enumerate();
         let numbers = values.filter(|(_, value)| !value.is_nan());
         numbers.map(|(row, _)| row).collect()
     }
 
-    /// Sorts the rows by their stamps.
+    /// Sorts the rows by their time stamps.
     pub(super) fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.time.len()).collect();
         order.sort_by(|a, b| self.time[*a].total_cmp(&self.time[*b]));
@@ -73,8 +73,8 @@ impl Kept {
         self.values.iter_mut().for_each(|own| only(own, stays));
     }
 
-    /// Keeps the rows with a reading of the end that has fewer readings, within the span of both;
-    /// returns a note.
+    /// Keeps the rows with a reading of the input or the output, whichever has fewer readings,
+    /// within the time in which both have readings. Returns a note.
     pub(super) fn on_one_grid(
         &mut self,
         [input, output]: &[Vec<usize>; 2],

@@ -1,8 +1,8 @@
-//! The kind of a file from its first bytes, independent of its name.
+//! The format of a file from its first bytes, independent of its name.
 
 use super::error::RecordError;
 
-/// The forms that are read.
+/// The supported formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Text,
@@ -11,15 +11,15 @@ pub(super) enum Kind {
     /// A MAT-file of version 7.3, which is HDF5.
     MatHdf5,
     Parquet,
-    /// A zip archive of NumPy's arrays.
+    /// A zip archive of NumPy arrays.
     Npz,
-    /// One array of NumPy's.
+    /// One NumPy array.
     Npy,
     /// An Excel workbook, a zip archive of XML.
     Xlsx,
 }
 
-/// Forms that are not read: their first bytes, their name, and what to do instead.
+/// Unsupported formats: their first bytes, their name, and what to do instead.
 const OTHERS: [(&[u8], &str, &str); 15] = [
     (
         b"PK\x03\x04",
@@ -71,10 +71,10 @@ const OTHERS: [(&[u8], &str, &str); 15] = [
 ];
 
 const HDF5: &str = "save it as CSV, Parquet or .mat v5";
-/// The command for MATLAB instead of its other forms.
+/// The command that saves a supported format in MATLAB.
 const V7: &str = "save it in MATLAB with `save -v7`";
 
-/// The form of a file.
+/// The format of a file.
 ///
 /// # Errors
 /// A message with the unsupported format, and what to do instead.
@@ -139,7 +139,8 @@ fn first_of_zip(bytes: &[u8]) -> Option<&[u8]> {
         .get(..usize::from(u16::from_le_bytes(*length)))
 }
 
-/// Version 4 has no mark: a header of five numbers and a name that ends with NUL.
+/// Whether a file is a MAT-file of version 4. This version has no signature, but a header of five
+/// numbers and a name that ends with NUL.
 fn is_mat_4(bytes: &[u8]) -> bool {
     let number = |index: usize, of: fn([u8; 4]) -> u32| -> Option<u32> {
         let own = bytes.get(4 * index..4 * index + 4)?;

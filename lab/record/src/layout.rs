@@ -1,9 +1,10 @@
 //! The position of the table in a text: preamble, names, units, values.
 //!
 //! A file whose first line contains the requested names is read from the first line. Otherwise the
-//! beginning of the file is searched for rows of numbers, and the rows above them for those names.
-//! Lines above the names are a preamble; a line between names and numbers is a row of units.
-//! Nothing else is guessed; if the names are not found, the first line is rejected as a header.
+//! beginning of the file is searched for rows of numbers, and the rows above the numbers are
+//! searched for the requested names. Lines above the names are a preamble. A line between names and
+//! numbers is a row of units. Nothing else is guessed. If the names are not found, the first line
+//! is rejected as a header.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{self, Header};
@@ -12,12 +13,12 @@ use super::roles::{self, Roles};
 use super::text::Rows;
 use super::{clock_time, limits, units, Options};
 
-/// This many successive rows of numbers, or all that there are, make a table.
+/// Number of successive rows of numbers that identify a table. A shorter text needs fewer.
 pub(super) const TABLE: usize = 3;
 /// Maximum number of rows between the names and the numbers.
 const ABOVE: usize = 8;
 
-/// A table whose columns have roles; the rows are those below names and units.
+/// A table whose columns have roles. Its rows are below the names and units.
 pub(super) struct Table<'a> {
     /// The unchanged line of the names; empty if the names are given.
     pub(super) names: &'a str,
@@ -32,7 +33,7 @@ pub(super) struct Table<'a> {
 /// Assigns roles to the columns of a header.
 type Assign = fn(&mut Header, &Options) -> Result<Roles, RecordError>;
 
-/// Whether there are rows of numbers in a text whose cells tabs separate.
+/// Whether a text with tabs between its cells contains rows of numbers.
 #[cfg(feature = "xlsx")]
 pub(super) fn has_table(text: &str) -> bool {
     Head::new(text, b'\t').tables().next().is_some()
@@ -73,7 +74,7 @@ pub(super) fn find<'a>(text: &'a str, options: &Options) -> Result<Table<'a>, Re
     }
 }
 
-/// Where a line of the text begins, and how many lines are before it.
+/// The position of a line in the text, and the number of lines before it.
 fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
     let refuse =
         |message: String| Err(RecordError::new(format!("--header-line {line}: {message}")));
@@ -110,7 +111,7 @@ fn named<'a>(
     })
 }
 
-/// Takes the units from the row behind the names, if it is one of units.
+/// Takes the units from the row below the names, if it is a row of units.
 fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
     let separator = table.rows.separator();
     let (rest, before) = table.rows.rest();
@@ -130,15 +131,15 @@ fn with_units(mut table: Table<'_>) -> Result<Table<'_>, RecordError> {
     Ok(table)
 }
 
-/// Whether a line, or the first cell of one, has the mark of a comment.
+/// Whether a line, or its first cell, begins with a comment mark.
 pub(super) fn is_comment(line: &str) -> bool {
     let line = line.trim_start().trim_start_matches('"');
     ["#", "%", "//"].iter().any(|mark| line.starts_with(mark))
 }
 
-/// Takes the units from a row of units, with a note. `None` if it is not a row of units: a cell is
-/// a number, or no cell under a column that is read is a known unit. An unknown word counts as a
-/// unit, except for the time.
+/// Takes the units from a row of units, with a note. The result is `None` if a cell is a number, or
+/// if no cell under a column that is read is a known unit. An unknown word counts as a unit, except
+/// for the time.
 fn units_row(
     table: &mut Table<'_>,
     cells: &[&str],
@@ -216,7 +217,7 @@ fn units_row(
     Ok(Some(said))
 }
 
-/// A line as cells. Only numbers matter here, so quotes need no further check.
+/// Splits a line into cells. Only numbers matter here, so quotes need no further check.
 pub(super) fn cells(line: &str, separator: u8) -> Vec<&str> {
     let cells = line.split(char::from(separator)).map(str::trim);
     let open = |cell: &str| -> Option<usize> {
@@ -231,7 +232,7 @@ pub(super) fn cells(line: &str, separator: u8) -> Vec<&str> {
         .collect()
 }
 
-/// The head of a text as the numbers and names of its lines.
+/// The first lines of a text, with their numbers and names.
 struct Head<'a> {
     separator: u8,
     lines: Vec<(usize, Vec<&'a str>)>,
@@ -264,7 +265,7 @@ impl<'a> Head<'a> {
         numbers >= 2 && 2 * numbers >= cells.count()
     }
 
-    /// The first row of a table; comments may separate its rows.
+    /// The first row of a table. Comments may separate its rows.
     fn behind_comments(&self, mut first: usize, names: usize) -> usize {
         let is_mark = |line: usize| {
             self.lines[line]
@@ -346,8 +347,8 @@ fn nameless<'a>(
     })
 }
 
-/// The first table below the first line with the requested names; otherwise the reason why the
-/// names above the first table do not match. Where any names will do, a row of units is not a row
+/// The first table below the first line with the requested names. Otherwise the error says why the
+/// names above the first table do not match. If any names are allowed, a row of units is not a row
 /// of names.
 fn below<'a>(
     text: &'a str,
@@ -421,8 +422,8 @@ pub(super) fn passed_over(from: usize, to: usize, place: &str) -> String {
     }
 }
 
-/// Whether only text follows: no line is a row of the table, and each one that is not blank
-/// has letters and no number where a row has its first one.
+/// Whether only text follows. No line is then a row of the table. Each line that is not blank has
+/// letters, and has no number at the position of the first number of a row.
 pub(super) fn only_text(rest: &str, separator: u8, used: &[usize]) -> bool {
     let text = |line: &str| {
         let cells = cells(line, separator);

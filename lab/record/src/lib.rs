@@ -1,10 +1,10 @@
 //! Reads a measured record (CSV, JSON, `.xlsx`, `.mat`, Parquet, `.npz` or `.npy`) into checked
 //! columns.
 //!
-//! A record consists of a time axis, the transmission's input and output, and optional channels.
-//! Nothing is repaired silently: [`Record::notes`] lists every change by the reader (a converted
-//! unit, an ignored column), and an unreadable record is refused with one line that names file,
-//! line and column.
+//! A record consists of a time axis, the input and the output of the transmission, and optional
+//! channels. Nothing is repaired silently. [`Record::notes`] lists every change by the reader, such
+//! as a converted unit or an ignored column. An unreadable record is rejected with one message that
+//! names file, line and column.
 //!
 //! ```
 //! use bowden_record::{parse, Options};
@@ -86,9 +86,10 @@ use std::path::Path;
 /// The input of the transmission, and the output measured at its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// Proximal torque in, distal torque out: the paper's (5) to (7).
+    /// The input is the proximal torque, and the output is the distal torque: (5) to (7) of the
+    /// paper.
     Torque,
-    /// Displacement in, force out: the paper's (1) and (2).
+    /// The input is a displacement, and the output is a force: (1) and (2) of the paper.
     Displacement,
 }
 
@@ -108,8 +109,7 @@ pub const MIN_SAMPLES: usize = 200;
 
 /// How to read a record: the mode, the names of the columns, the cuts.
 ///
-/// The default reads the default names, takes the mode from the columns and
-/// cuts nothing.
+/// The default options read the default names, derive the mode from the columns, and cut nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The mode; `None` derives it from the columns.
@@ -120,8 +120,8 @@ pub struct Options {
     pub input: Option<String>,
     /// Column of the output; default: `tau_o` or `f`.
     pub output: Option<String>,
-    /// Further channels besides the default ones, as (name of the channel, column); `A-B` and `A+B`
-    /// are the difference and the sum of two columns.
+    /// Further channels in addition to the default ones, as (name of the channel, column). `A-B`
+    /// and `A+B` are the difference and the sum of two columns.
     pub channels: Vec<(String, String)>,
     /// Start \[s\], counted from the first time stamp.
     pub skip: f64,
@@ -131,36 +131,37 @@ pub struct Options {
     pub rate: Option<f64>,
     /// Line of the column names, from 1; default: detected.
     pub header_line: Option<usize>,
-    /// Segment to read, from 1, of a text in which the column names are repeated; if `None`, all of
-    /// them as one record.
+    /// Segment to read, from 1, of a text in which the column names are repeated. `None` reads all
+    /// segments as one record.
     pub segment: Option<usize>,
-    /// Column names of a text without names, each with its unit if it has one (`x [mm]`); a column
-    /// with an empty name is not read. Empty if the text has its own names.
+    /// Column names of a text without names, each with its unit if it has one (`x [mm]`). A column
+    /// with an empty name is not read. The list is empty if the text has its own names.
     pub names: Vec<String>,
-    /// Sheet of an Excel workbook; if `None`, the first one with a table.
+    /// Sheet of an Excel workbook; default: the first sheet with a table.
     pub sheet: Option<String>,
     /// Omit rows with an empty cell, a NaN or the time stamp of the previous row, instead of
-    /// refusing the record.
+    /// rejecting the record.
     pub drop_bad: bool,
 }
 
 /// One measured quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// The channel's name (`phi_d`), or the file's own for input and output.
+    /// The name of the channel (`phi_d`). For input and output, the name in the file.
     pub name: String,
     /// The unit in the header, if it states one; `rad` if an angle was converted.
     pub unit: Option<String>,
     /// One finite value per sample.
     pub values: Vec<f64>,
-    /// Its definition from columns, such as `phi_p + phi_d`, if it is not a column itself.
+    /// The definition from columns, such as `phi_p + phi_d`, if the quantity is not a column
+    /// itself.
     pub definition: Option<String>,
 }
 
 /// A checked record: at least [`MIN_SAMPLES`] samples, every value finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Its source, as named in messages.
+    /// The path or label of the record, as in messages.
     pub path: String,
     /// The mode.
     pub mode: Mode,
@@ -178,7 +179,7 @@ pub struct Record {
     pub defects: Vec<Defect>,
     /// Rows that were omitted on request ([`Options::drop_bad`]).
     pub dropped: usize,
-    /// Columns that the logger sampled and held: a curve replaces their steps and removes their
+    /// Columns that the logger sampled and held. A curve replaces their steps and removes their
     /// noise.
     pub held: Vec<String>,
 }
@@ -203,13 +204,14 @@ impl Record {
 /// Reads a record from a file.
 ///
 /// # Errors
-/// A message with file, line and column: see [`RecordError`].
+/// A message with file, line and column (see [`RecordError`]).
 pub fn read(path: &Path, options: &Options) -> Result<Record, RecordError> {
     let label = path.display().to_string();
     parse(&load(path)?, &label, options)
 }
 
-/// The bytes of a file, for [`parse`]; only the first bytes if the format is not supported.
+/// The bytes of a file, for [`parse`]. If the format is not supported, only the first bytes are
+/// read.
 ///
 /// # Errors
 /// A message with the file: see [`RecordError`].
@@ -217,10 +219,10 @@ pub fn load(path: &Path) -> Result<Vec<u8>, RecordError> {
     file::load(path, &path.display().to_string())
 }
 
-/// Reads a record from bytes in memory; `label` is used instead of the file's name.
+/// Reads a record from bytes in memory. `label` replaces the name of the file.
 ///
 /// # Errors
-/// A message with file, line and column: see [`RecordError`].
+/// A message with file, line and column (see [`RecordError`]).
 pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, RecordError> {
     parse_lines(bytes, options)
         .map_err(|error| error.in_file(label))
@@ -230,8 +232,8 @@ pub fn parse(bytes: &[u8], label: &str, options: &Options) -> Result<Record, Rec
         })
 }
 
-/// Reads a record from columns in memory, like a file that contains columns of numbers; `label` is
-/// used instead of the file's name.
+/// Reads a record from columns in memory, like a file that contains columns of numbers. `label`
+/// replaces the name of the file.
 ///
 /// The name of a column may contain its unit, as in the header of a text (`tau_i [N·m]`).
 ///
@@ -408,7 +410,7 @@ fn record(
     })
 }
 
-/// Removes the jumps from angles that wrap around; returns notes.
+/// Removes the jumps from angles that wrap around, and returns notes.
 fn unwrapped(input: &mut Column, output: &Column, channels: &mut [Column]) -> Vec<String> {
     let own = wrapping::unwrap(&input.name, &mut input.values, &[&output.values]);
     let others: [&[f64]; 2] = [&input.values, &output.values];
@@ -418,7 +420,7 @@ fn unwrapped(input: &mut Column, output: &Column, channels: &mut [Column]) -> Ve
     own.into_iter().chain(channels).collect()
 }
 
-/// Removes the stairs from columns that are sampled and held; returns their names and notes.
+/// Removes the steps from columns that are sampled and held, and returns their names and notes.
 fn without_stairs(
     time: &[f64],
     input: &mut Column,

@@ -1,17 +1,19 @@
-//! What a file may claim at most. Whatever it states of itself, no more is read.
+//! Limits on the size of a file and its parts. No more is read, whatever sizes the file states.
 
 use super::error::RecordError;
 
-/// Bytes of a file, and of all that is unpacked from it: about ten hours of six columns at 1 kHz.
+/// Maximum number of bytes of a file, and of its unpacked contents. This is about ten hours of six
+/// columns at 1 kHz.
 pub(super) const BYTES: u64 = 1 << 31;
-/// Pieces of a file: bytes of a line or of the beginning that tells its form, names of columns,
-/// variables and cells.
+/// Maximum number of parts: bytes in a line or in the part that identifies the format, column
+/// names, variables, and cells.
 pub(super) const PIECES: usize = 1 << 16;
-/// Columns of a sheet or a matrix: a wider matrix is an image.
+/// Maximum number of columns in a sheet or a matrix. A wider matrix is an image.
 pub(super) const COLUMNS: usize = 256;
-/// Matrices in cells in structures in …: no record needs more.
+/// Maximum depth of nested matrices, cells and structures.
 pub(super) const DEPTH: usize = 6;
-/// Lines in which the table of a text is searched, of a KiB on average.
+/// Maximum number of lines in which the table of a text is searched, with an average length of 1
+/// KiB.
 const HEAD: usize = 1000;
 
 /// The first lines of a text, each with its position.
@@ -26,7 +28,7 @@ pub(super) fn head(text: &str) -> impl Iterator<Item = (usize, &str)> {
         })
 }
 
-/// The refusal of a file with more bytes; `how` says where they are.
+/// The error for a file with too many bytes. `how` describes their location.
 pub(super) fn too_large(how: &str) -> RecordError {
     let size = BYTES >> 20;
     RecordError::new(format!(

@@ -1,8 +1,8 @@
-//! NumPy's `.npz`, a zip archive with one array per file, and `.npy`, one array.
+//! NumPy files: `.npz`, a zip archive with one array per file, and `.npy`, a single array.
 //!
-//! Source: NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of numbers
-//! is a vector, or a matrix whose columns are named by an array of as many texts. The fields of a
-//! structured array are vectors. Every length is checked against the number of bytes.
+//! Source: NumPy, *NEP 1: a simple file format for NumPy arrays*. An array of numbers is a vector
+//! or a matrix. An array of texts with the same length names the columns of a matrix. The fields of
+//! a structured array are vectors. Every length is checked against the number of bytes.
 
 use super::limits::{BYTES, COLUMNS};
 use super::vectors::Value;
@@ -22,7 +22,7 @@ pub(super) fn variables(bytes: &[u8]) -> Result<Vec<(String, Value)>, Damage> {
     Ok(all)
 }
 
-/// The columns of an array that is a file by itself; `names` are those of a matrix.
+/// The columns of an array that is a file by itself. `names` are the column names of a matrix.
 pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)>, Damage> {
     let header = Header::read(bytes)?;
     match (header.value(bytes)?, header.shape.as_slice()) {
@@ -57,13 +57,13 @@ fn array(file: &[u8]) -> Result<Value, Damage> {
     Header::read(file)?.value(file)
 }
 
-/// What an array is.
+/// Type and shape of an array.
 struct Header {
     shape: Vec<usize>,
-    /// The types of a cell; none if one is not known.
+    /// The types of a cell; empty if one of them is unknown.
     fields: Vec<(String, Kind)>,
     by_column: bool,
-    /// Where the cells begin.
+    /// Position of the first cell.
     data: usize,
 }
 
@@ -97,7 +97,7 @@ impl Header {
         })
     }
 
-    /// The cells of its file.
+    /// The value that the cells of a file represent.
     fn value(&self, file: &[u8]) -> Result<Value, Damage> {
         let Self { shape, fields, .. } = self;
         let data = file.get(self.data..).unwrap_or_default();
@@ -169,8 +169,8 @@ struct Kind {
     is_big: bool,
 }
 
-/// The types of an array's cells: one without a name, or those of its fields; none if one is not
-/// known.
+/// The types of the cells of an array: one type without a name, or the types of its fields. The
+/// list is empty if one of them is unknown.
 fn fields(kind: &str) -> Vec<(String, Kind)> {
     let own = match kind.strip_prefix('[') {
         // `[('t', '<f8'), ('x', '<f8')]`: quotes around each name and each type.

@@ -4,25 +4,25 @@ use super::error::{shown, Bad, RecordError, SHOWN};
 use super::thousands::Thousands;
 use std::cell::{Cell, RefCell};
 
-/// Beyond this a product of two values, or its square, would overflow.
+/// Largest magnitude for which a product of two values, and its square, do not overflow.
 pub(super) const LARGEST: f64 = 1e150;
 
-/// The sign between the integer and the decimals.
+/// The decimal sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Point,
     Comma,
 }
 
-/// How a file writes its numbers: with a point or with a comma, never with both.
+/// The decimal sign of a file: a point or a comma, never both.
 ///
-/// The first cell with either sign decides. A comma can be part of a number only if it does not
-/// separate cells. A file that mixes both is rejected at the first cell of the other kind, and so
-/// is a column whose commas may separate thousands.
+/// The first cell with one of the two signs decides. A comma can be part of a number only if it
+/// does not separate cells. A file that mixes both signs is rejected at the first cell with the
+/// other sign. A column whose commas may separate thousands is also rejected.
 pub(super) struct Notation {
     comma_possible: bool,
     sign: Cell<Option<Sign>>,
-    /// The line that decided.
+    /// The line with the first decimal sign.
     decided: Cell<usize>,
     thousands: RefCell<Thousands>,
 }
@@ -57,7 +57,7 @@ impl Notation {
         Ok(value)
     }
 
-    /// Refuses commas that may separate thousands; `name` is that of a column.
+    /// Rejects commas that may separate thousands. `name` returns the name of a column.
     pub(super) fn check<'n>(&self, name: impl Fn(usize) -> &'n str) -> Result<(), RecordError> {
         match self.is_comma() {
             true => self.thousands.borrow().check(name),
@@ -104,7 +104,7 @@ impl Notation {
     }
 }
 
-/// A number with at most one comma, as its decimal sign.
+/// A number with at most one comma, which is its decimal sign.
 fn with_comma(cell: &str) -> Option<f64> {
     match cell.contains(',') {
         true => cell.replacen(',', ".", 1).parse().ok(),
@@ -112,7 +112,7 @@ fn with_comma(cell: &str) -> Option<f64> {
     }
 }
 
-/// Why a cell is no measured number.
+/// The error for a cell that is not a measured number.
 fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<f64, RecordError> {
     let refuse = |message: String| Err(RecordError::at(line, message).on(column));
     if cell.is_empty() {
@@ -132,7 +132,7 @@ fn refuse(cell: &str, parsed: Option<f64>, line: usize, column: &str) -> Result<
     }
 }
 
-/// Whether a cell is an error of a spreadsheet: `#N/A`, `#VALUE!` and their like in other languages.
+/// Whether a cell is a spreadsheet error, such as `#N/A` or `#VALUE!`, in any language.
 pub(super) fn is_sheet_error(cell: &str) -> bool {
     cell.strip_prefix('#').is_some_and(|own| {
         own.starts_with(char::is_alphabetic) && !own.contains(char::is_whitespace)
@@ -164,7 +164,7 @@ const MARKS: [&str; 21] = [
     "---",
 ];
 
-/// The message that a cell is not a number, and the required form if it can be determined.
+/// The message for a cell that is not a number, with the required form if it can be determined.
 fn no_number(cell: &str) -> String {
     let text = shown(cell, SHOWN);
     let upper = cell.to_uppercase();
@@ -217,7 +217,7 @@ fn measured(value: f64, text: &str, line: usize, column: &str) -> Result<f64, Re
     Err(RecordError::at(line, message).on(column))
 }
 
-/// A value that was stored as a number; `None` if the file has none.
+/// A value that is stored as a number; `None` means that the file has no value.
 pub(super) fn stored(value: Option<f64>, row: usize, column: &str) -> Result<f64, RecordError> {
     match value {
         None => refuse("", None, row, column),
@@ -226,7 +226,7 @@ pub(super) fn stored(value: Option<f64>, row: usize, column: &str) -> Result<f64
     }
 }
 
-/// Whether a cell contains a number of either notation, or `NaN`.
+/// Whether a cell contains a number with either decimal sign, or `NaN`.
 pub(super) fn is_data(cell: &str, separator: u8) -> bool {
     cell.parse::<f64>().is_ok() || (separator != b',' && with_comma(cell).is_some())
 }

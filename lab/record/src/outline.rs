@@ -1,7 +1,7 @@
 //! The contents of a file before every column has a role: names, units, and values as they are.
 //!
-//! A view shows these contents to a user who then chooses the columns. A cell without a number is
-//! NaN and not refused.
+//! A view shows these contents to a user, who then chooses the columns. A cell without a number is
+//! NaN and is not rejected.
 
 use super::encoding::Decoded;
 use super::error::RecordError;
@@ -32,7 +32,7 @@ pub struct Outlined {
     pub name: String,
     /// Its unit, if the file states one.
     pub unit: Option<String>,
-    /// Its role, if its name or an option determines it.
+    /// Its role, if its name or an option determines the role.
     pub part: Option<Part>,
     /// One value per row; NaN if the cell is not a number.
     pub values: Vec<f64>,
@@ -61,8 +61,8 @@ pub fn outline(bytes: &[u8], options: &Options) -> Result<Outline, RecordError> 
     }
 }
 
-/// The lines of a text next to one of its lines, at most `around` on each side; empty for a file
-/// that is not text.
+/// The lines of a text around one of its lines, at most `around` lines on each side. The list is
+/// empty for a file that is not text.
 #[must_use]
 pub fn excerpt(bytes: &[u8], line: usize, around: usize, options: &Options) -> Vec<Line> {
     let unpacked = match kind::of(bytes) {
@@ -141,7 +141,7 @@ fn of_table(decoded: Decoded<'_>, options: &Options) -> Result<Outline, RecordEr
     Ok(Outline::new(&header, roles, values, options))
 }
 
-/// The values of all columns, up to the first line that is no row.
+/// The values of all columns, up to the first line that is not a row.
 fn numbers(mut rows: Rows<'_>, header: &Header) -> Vec<Vec<f64>> {
     let mut values = vec![Vec::new(); header.columns.len()];
     while let Ok(Some(row)) = rows.read() {
@@ -183,7 +183,7 @@ impl Outline {
     }
 }
 
-/// The parts of columns that are read as they are.
+/// The roles of columns that are read without change.
 fn parts(roles: &Roles) -> Vec<(usize, Part)> {
     let ends = [(roles.input, Part::Input), (roles.output, Part::Output)];
     let time = roles.time.map(|index| (index, Part::Time));

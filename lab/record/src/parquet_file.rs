@@ -1,7 +1,7 @@
 //! Parquet: numeric columns that are not nested in lists.
 //!
-//! The crate `parquet` reads it, without arrow, and only with the compressions that are written in
-//! Rust: snappy, gzip and lz4. Its message about a damaged file is passed on.
+//! The crate `parquet` reads the file without arrow. The supported compressions are snappy, gzip
+//! and lz4. For a damaged file, the error contains the message of this crate.
 
 use super::error::RecordError;
 use super::limits::PIECES;
@@ -14,18 +14,19 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
-/// A file whose columns are known and not yet read.
+/// A file whose columns are known but not yet read.
 pub(super) struct File {
     reader: SerializedFileReader<Bytes>,
-    /// The place of each numeric column among all of the file.
+    /// The index of each numeric column among all columns of the file.
     places: Vec<usize>,
 }
 
-/// What the numbers of a column are.
+/// The meaning of the numbers in a column.
 #[derive(Clone, Copy)]
 struct Meaning {
     unsigned: bool,
-    /// Points in time: counted from the first, so that a double resolves them.
+    /// Whether the numbers are points in time. They are then relative to the first one, so that a
+    /// double resolves them.
     stamp: bool,
 }
 
@@ -60,7 +61,7 @@ impl File {
         (0..self.places.len()).map(name).collect()
     }
 
-    /// The values of a column; `None` if it has none.
+    /// The values of a column; `None` for a missing value.
     pub(super) fn read(&self, column: usize) -> Result<Vec<Option<f64>>, RecordError> {
         let descriptor = self.descriptor(column);
         let name = descriptor.path().string();
@@ -91,7 +92,7 @@ impl File {
     }
 }
 
-/// The crate's own refusals, and its panics on files that are damaged.
+/// Converts the errors of the crate, and its panics on damaged files, to errors of the record.
 fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, RecordError> {
     let refuse = |why: &str| {
         let why = super::error::shown(why, 200);

@@ -14,11 +14,11 @@ pub enum Part {
     Input,
     /// The transmission's output.
     Output,
-    /// A further channel of that name.
+    /// A further channel with this name.
     Channel(String),
 }
 
-/// Indices into the header's columns.
+/// Indices of the columns in the header.
 pub(super) struct Roles {
     pub(super) mode: Mode,
     /// `None` if the time comes from the row number.
@@ -64,8 +64,8 @@ fn default_channels(mode: Mode) -> &'static [&'static str] {
     }
 }
 
-/// The role of each column. Two columns with one name cannot be read; columns that are not read may
-/// have any name.
+/// The role of each column. Two columns with the same name cannot be read. Columns that are not
+/// read may have any name.
 pub(super) fn assign(header: &mut Header, options: &Options) -> Result<Roles, RecordError> {
     let said = take_units(header, options);
     let mut roles = parts(header, options)?;
@@ -133,7 +133,7 @@ pub(super) fn likely(header: &Header, options: &Options) -> Vec<(usize, Part)> {
     found
 }
 
-/// Takes the units that the options state after names of columns.
+/// Sets the units that the options specify after column names.
 fn take_units(header: &mut Header, options: &Options) -> Vec<String> {
     let ends = [
         ("--time", &options.time),
@@ -213,10 +213,10 @@ fn parts(header: &Header, options: &Options) -> Result<Roles, RecordError> {
     Ok(roles)
 }
 
-/// Usual names of the time; the first one that exists is used.
+/// Usual names of the time column. The first name that exists is used.
 const TIMES: [&str; 3] = ["t", "time", "timestamp"];
 
-/// The column of the time. `T` without a unit may as well be a temperature.
+/// The time column. `T` without a unit is not used, because it may be a temperature.
 fn time(header: &Header, options: &Options) -> Result<usize, RecordError> {
     let hint = "--time COL selects another one; --rate HZ computes the time from the row number";
     let usual = |index: &usize| {

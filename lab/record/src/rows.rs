@@ -18,12 +18,12 @@ pub(super) struct Table {
     pub(super) values: Vec<Vec<f64>>,
     /// Line of each sample.
     pub(super) lines: Vec<usize>,
-    /// Rows that were left out because of their contents.
+    /// Number of rows that were omitted because of their contents.
     pub(super) dropped: usize,
     pub(super) notes: Vec<String>,
 }
 
-/// Rows that `--drop-bad` has left out, by reason.
+/// Number of rows that `--drop-bad` has omitted, by reason.
 #[derive(Default)]
 struct Dropped {
     empty: usize,
@@ -73,24 +73,26 @@ enum Sample {
     Bad(Bad),
 }
 
-/// The parts of a row that are read: for each series the column, and the column added to it.
+/// The cells of a row that are read. For each series, these are the column and the column that is
+/// added to it.
 struct Reader<'a> {
     header: &'a Header,
     series: Vec<(usize, Option<(usize, f64)>)>,
     drop_bad: bool,
-    /// Whether the rows have time stamps; input and output may have separate ones.
+    /// Whether the rows have time stamps. Input and output may have separate time stamps.
     has_stamps: bool,
     /// One more than the last column that is read.
     width: usize,
-    /// Number of cells in the first row, if it lacks columns that are not read.
+    /// Number of cells in the first row, if this row is shorter than the header and only columns
+    /// that are not read are missing.
     short: Option<usize>,
     /// Rows kept so far.
     kept: usize,
     lacking: Lacking,
-    /// The error for the first time stamp before an earlier one, which is allowed if input and
+    /// The error for the first time stamp that decreases. Such time stamps are allowed if input and
     /// output have separate time stamps.
     backwards: Option<RecordError>,
-    /// Rows of several lines.
+    /// Number of rows that span several lines.
     carried: usize,
     /// Lines of comments among the rows.
     comments: Vec<usize>,
@@ -146,7 +148,7 @@ impl<'a> Reader<'a> {
         several.into_iter().chain(comments).chain(short)
     }
 
-    /// The time of a row, its values in `into`.
+    /// Returns the time of a row, and writes its values to `into`.
     fn read(
         &mut self,
         row: &Row<'_>,
@@ -223,7 +225,8 @@ impl<'a> Reader<'a> {
             || last.is_some_and(|last| error.column() == Some(last.name.as_str()))
     }
 
-    /// A note on the lines from an error on, if they are not rows; otherwise the first error.
+    /// A note on the lines after an error, if they are not rows. Otherwise the result is the first
+    /// error.
     fn below(
         &self,
         error: RecordError,
@@ -247,8 +250,8 @@ impl<'a> Reader<'a> {
         Err(before.filter(|_| !self.drop_bad).unwrap_or(error))
     }
 
-    /// Whether the row has the cells of the header: missing cells have no name, and extra cells are
-    /// empty.
+    /// Checks the number of cells. Missing cells are allowed only in columns without a name, or if
+    /// the first row also lacks them. Extra cells must be empty.
     fn fits(&mut self, row: &Row<'_>) -> Result<(), RecordError> {
         let Row::Text(row) = row else {
             return Ok(());
@@ -279,7 +282,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Reads the rows; values in rows that are cut are ignored.
+/// Reads the rows. Values in rows that are cut are ignored.
 pub(super) fn read(
     rows: &mut Source<'_>,
     header: &Header,

@@ -1,42 +1,43 @@
-//! What all detectors share: one scale of consequences, one false-alarm rate, and the statistics of
-//! a signal from which they judge.
+//! The common basis of all detectors: thresholds, one false-alarm rate, and the statistics of a
+//! signal.
 //!
-//! A detector is a statistic whose size without the defect is known. One share decides whether a defect
-//! is told, and a larger one whether it is grave.
+//! A detector is a statistic whose size without the defect is known. One threshold decides whether
+//! a defect is reported, and a larger threshold decides whether it is grave.
 
 use std::ops::Range;
 
-/// Share of the samples, or of a signal's spread, from which a defect is told.
+/// Fraction of the samples, or of the standard deviation of a signal, from which a defect is
+/// reported.
 pub(super) const TOLD: f64 = 0.003;
-/// Share from which a movement counts, and coarse steps are told; and from which conclusions are
-/// invalid where the defect acts on all samples behind it: at the input, whose motion acts through
-/// the hysteresis, and in time.
+/// Fraction from which a movement counts, and from which coarse steps are reported. For defects of
+/// the input and of the time, conclusions are invalid from this fraction, because such a defect
+/// acts on all later samples.
 pub(super) const FRACTION: f64 = 0.02;
-/// Share from which other conclusions are invalid; and the share of exceptions from which they are
-/// the rule.
+/// Fraction from which conclusions are invalid for other defects, and fraction of exceptions from
+/// which they are the rule.
 pub(super) const GRAVE: f64 = 0.05;
-/// Share of a record that may be missing.
+/// Fraction of a record that may be missing.
 pub(super) const MISSING: f64 = 0.1;
 
-/// Chance of a run by noise alone, below which it is none.
+/// Probability below which a run is not attributed to noise.
 pub(super) const CHANCE: f64 = 1e-9;
-/// What is clear of noise, in multiples of its rms.
+/// Size that clearly exceeds the noise, in multiples of the noise rms.
 pub(super) const CLEAR: f64 = 5.0;
-/// One explanation is better than another if its measure is so many times larger.
+/// Factor by which the measure of one explanation must exceed that of another to be better.
 pub(super) const BETTER: f64 = 2.0;
-/// Sizes are usual up to this quantile.
+/// Quantile up to which sizes are usual.
 const USUAL: f64 = 0.9;
-/// A leap is so many times the usual size: noise of Laplace's distribution reaches 6 times that
-/// quantile in a million samples.
+/// Size of a jump in multiples of the usual size. In a million samples, noise with a Laplace
+/// distribution reaches 6 times this quantile.
 pub(super) const LEAP: f64 = 8.0;
-/// Share of turns among the steps from which a signal carries noise.
+/// Fraction of reversals among the steps from which a signal contains noise.
 const TURNS: f64 = 0.1;
 
-/// A few samples: the shortest plateau, the longest spike, what surrounds an event.
+/// A few samples: the shortest plateau, the longest spike, and the surroundings of an event.
 pub(super) const FEW: usize = 5;
-/// Samples that a signal rarely rests for.
+/// Number of samples for which a signal rarely rests.
 pub(super) const MANY: usize = 20;
-/// Minimum number of steps that determine their usual size or their period.
+/// Minimum number of steps from which their usual size or their period is determined.
 pub(super) const ENOUGH: usize = 60;
 
 /// Smallest and largest value.
@@ -47,12 +48,12 @@ pub(super) fn range(values: &[f64]) -> (f64, f64) {
         .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
 }
 
-/// The change to each sample but the first.
+/// The change to each sample except the first.
 pub(super) fn steps(signal: &[f64]) -> impl Iterator<Item = f64> + '_ {
     signal.windows(2).map(|pair| pair[1] - pair[0])
 }
 
-/// The stretches of equal values.
+/// The intervals of equal values.
 pub(super) fn runs(signal: &[f64]) -> impl Iterator<Item = Range<usize>> + '_ {
     let mut end = 0;
     signal.chunk_by(|a, b| a == b).map(move |run| {
@@ -81,7 +82,8 @@ pub(super) fn spread(signal: &[f64]) -> f64 {
     (signal.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-/// Whether noise moves a signal back and forth: the share of turns among its steps other than zero.
+/// Whether noise moves a signal back and forth, according to the fraction of reversals among its
+/// nonzero steps.
 pub(super) fn is_noisy(moving: &[f64]) -> bool {
     let turns = moving.windows(2).filter(|pair| pair[0] * pair[1] < 0.0);
     turns.count() as f64 > TURNS * moving.len() as f64

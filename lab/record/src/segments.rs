@@ -1,9 +1,9 @@
-//! A table whose names are repeated: the blocks of a load frame, the segments of LabVIEW, a logger
-//! that was started again.
+//! A table whose names are repeated, such as the blocks of a load frame, the segments of LabVIEW,
+//! or the file of a restarted logger.
 //!
-//! The rows continue below the same names, and the same units if there are any. They form one
-//! record if the time continues too; otherwise `--segment N` selects one of the segments. Text
-//! above the names of a segment is skipped like a preamble.
+//! The rows continue below the same names, and the same units if there are any. The segments form
+//! one record if the time also continues. Otherwise `--segment N` selects one of them. Text above
+//! the names of a segment is skipped like a preamble.
 
 use super::clock_time;
 use super::error::RecordError;
@@ -75,7 +75,8 @@ fn ask(place: Place, why: &str) -> RecordError {
     RecordError::at(names, message)
 }
 
-/// The segments of a table, one where its names appear once; those without rows do not count.
+/// The segments of a table. There is one segment if the names appear once. Segments without rows do
+/// not count.
 fn segments<'a>(table: &Table<'a>) -> Vec<Segment<'a>> {
     let (text, before) = table.rows.rest();
     let names = table.names.trim();

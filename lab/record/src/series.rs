@@ -30,15 +30,15 @@ impl Series {
         [Some(first), second].into_iter().flatten()
     }
 
-    /// The columns that are added or subtracted; none if it is a column itself.
+    /// The columns that are added or subtracted; none if the series is a single column.
     pub(super) fn parts(self) -> impl Iterator<Item = usize> {
         let sum = matches!(self, Self::Sum { .. });
         self.columns().filter(move |_| sum)
     }
 
-    /// A sum or difference in words: `phi_p + phi_d`, `s_p - 0.001 s_d` where the units differ.
-    /// Each column has its name in the file, or that of the channel that is read from it; angles
-    /// are in radians there.
+    /// A sum or difference in words, such as `phi_p + phi_d`, or `s_p - 0.001 s_d` if the units
+    /// differ. Each column has its name in the file, or the name of the channel that is read from
+    /// it. The angles of a channel are in radians.
     pub(super) fn definition(
         self,
         header: &Header,
@@ -64,7 +64,7 @@ impl Series {
         Ok(Some(format!("{first} {sign} {size}{second}")))
     }
 
-    /// The column whose name and unit it has.
+    /// The column whose name and unit the series has.
     pub(super) fn first(self) -> usize {
         match self {
             Self::Column(first) | Self::Sum { first, .. } => first,
@@ -107,7 +107,7 @@ impl Series {
     }
 }
 
-/// The ways in which a text is `A-B` or `A+B`, with the sign.
+/// All ways to read a text as `A-B` or `A+B`, with the sign.
 pub(super) fn splits(text: &str) -> Vec<(&str, f64, &str)> {
     text.match_indices(['+', '-'])
         .map(|(at, sign)| {
@@ -118,8 +118,8 @@ pub(super) fn splits(text: &str) -> Vec<(&str, f64, &str)> {
         .collect()
 }
 
-/// The column of that name, or `A-B` or `A+B` of two columns or of channels that other options
-/// name.
+/// The column with this name, or `A-B` or `A+B` of two columns or of channels that other options
+/// define.
 pub(super) fn parse(header: &Header, options: &Options, text: &str) -> Result<Series, RecordError> {
     if let Some(index) = header.find(text) {
         return Ok(Series::Column(index));

@@ -70,7 +70,7 @@ fn of_vectors(vectors: Vec<Vector>) -> Result<Columns, RecordError> {
     })
 }
 
-/// Columns in memory; the whole name of one is that in the header of a text.
+/// Columns in memory. The whole name of a column has the form of a header cell in a text.
 pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
     let named = |column: Column| {
         let Column {
@@ -91,7 +91,7 @@ pub(super) fn of_columns(columns: Vec<Column>) -> Result<Columns, RecordError> {
 }
 
 impl Columns {
-    /// The header, and the values of all columns; NaN where there is none.
+    /// The header and the values of all columns. Missing values are NaN.
     pub(super) fn all(self) -> (Header, Vec<Vec<f64>>) {
         // Without Parquet there is only one form.
         #[allow(clippy::infallible_destructuring_match)]
@@ -109,8 +109,8 @@ impl Columns {
     }
 }
 
-/// Refuses options for the names of a text, which the columns of such a file have, unless `--names`
-/// gave them.
+/// Rejects options for the names of a text, because the columns of such a file have names, unless
+/// `--names` gave the names.
 fn without_lines(is_given: bool, options: &Options) -> Result<(), RecordError> {
     if let Some(line) = options.header_line {
         return Err(RecordError::new(format!(
@@ -145,7 +145,7 @@ pub(super) fn of_json(text: &str, options: &Options) -> Result<Record, RecordErr
     Ok(record)
 }
 
-/// The record of a file's columns; only those that have a part are read.
+/// The record of the columns of a file. Only columns with a role are read.
 pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordError> {
     let Columns {
         mut header,
@@ -177,7 +177,7 @@ pub(super) fn record(file: Columns, options: &Options) -> Result<Record, RecordE
     super::record(&header, roles, Source::Sheet(sheet), options)
 }
 
-/// The length that all columns which are read have.
+/// The common length of all columns that are read.
 fn same_length(header: &Header, roles: &Roles, lengths: &[usize]) -> Result<usize, RecordError> {
     let first = roles.time.unwrap_or(roles.input);
     let length = lengths[first];

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-/// Units of one kind, each size in the first one with the signs that have it. Exact are the pound
-/// of 0.453 592 37 kg and the weight of a kilogram, under 9.806 65 m/s². `Grad` is German for a
-/// degree; a hundredth of a right angle is `gon`.
+/// Units of one kind: each size, in multiples of the first unit, with all symbols of this size. The
+/// pound (0.453 592 37 kg) and standard gravity (9.806 65 m/s²) are exact. `Grad` is German for a
+/// degree. A hundredth of a right angle is `gon`.
 const SIZES: [&[(f64, &[&str])]; 7] = [
     &[
         (1.0, &["m"]),
@@ -66,10 +66,10 @@ const SIZES: [&[(f64, &[&str])]; 7] = [
     ],
 ];
 
-/// Signs that stand between the factors of a unit.
+/// Signs that may separate the factors of a unit.
 const BETWEEN: [char; 8] = ['·', '⋅', '∙', '•', '*', '.', '-', ' '];
 
-/// Units of time, each with its seconds and the other words for it in small letters.
+/// Units of time, each with its size in seconds and its other names in small letters.
 const TIMES: [(&str, f64, &[&str]); 7] = [
     ("s", 1.0, &["sec", "secs", "second", "seconds"]),
     (
@@ -100,8 +100,8 @@ const TIMES: [(&str, f64, &[&str]); 7] = [
     ("d", 86_400.0, &["day", "days"]),
 ];
 
-/// A unit of time with its seconds; in any case and spelt out, but for a letter alone: `H` is no
-/// hour.
+/// A unit of time and its size in seconds. The unit may be spelt out and in any case, except for a
+/// single letter: `H` is not an hour.
 pub(super) fn of_time(unit: &str) -> Option<(&'static str, f64)> {
     let lower = unit.to_lowercase().replace('μ', "µ");
     let is_letter = unit.chars().count() < 2;
@@ -112,7 +112,7 @@ pub(super) fn of_time(unit: &str) -> Option<(&'static str, f64)> {
     found.map(|(sign, seconds, _)| (*sign, *seconds))
 }
 
-/// Units spelt out, in small letters and of one, and their signs.
+/// Units that are spelt out, in small letters and singular, and their symbols.
 const WORDS: [(&str, &str); 27] = [
     ("metre", "m"),
     ("micron", "µm"),
@@ -143,7 +143,7 @@ const WORDS: [(&str, &str); 27] = [
     ("rpm", "rpm"),
 ];
 
-/// Beginnings of such words, and their signs.
+/// Prefixes of such words, and their symbols.
 const PREFIXES: [(&str, &str); 6] = [
     ("mega", "M"),
     ("kilo", "k"),
@@ -153,8 +153,9 @@ const PREFIXES: [(&str, &str); 6] = [
     ("nano", "n"),
 ];
 
-/// The symbol of a unit that is spelt out (`Kilonewtons`) or in other letters (`KN`). `None` if it
-/// is not a unit, if it is ambiguous (`NM`), or if a capital would change its size (`MV`).
+/// The symbol of a unit that is spelt out (`Kilonewtons`) or has letters of the wrong case (`KN`).
+/// `None` if the text is not a unit, if it is ambiguous (`NM`), or if a capital letter would change
+/// its size (`MV`).
 fn spelt(unit: &str) -> Option<String> {
     // An abbreviation: `sec.`, `in.`
     let unit = unit.strip_suffix('.').unwrap_or(unit);
@@ -179,7 +180,7 @@ fn spelt(unit: &str) -> Option<String> {
         .or_else(|| in_other_letters(unit, &lower))
 }
 
-/// The only unit of known size with these letters.
+/// The only unit of known size with these letters in any case.
 fn in_other_letters(unit: &str, lower: &str) -> Option<String> {
     // Nobody measures in megametres or megaradians; a megavolt is no millivolt.
     let is_size = |kind: usize, own: &str| {
@@ -204,9 +205,9 @@ fn in_other_letters(unit: &str, lower: &str) -> Option<String> {
     }
 }
 
-/// The standard spelling of a unit: `N·mm` for `N*mm`, `N-mm`, `N.mm` and `N mm`, and symbols for
-/// units that are spelt out or in other letters, `kN/mm` for `KN/millimetre`. An unknown unit is
-/// unchanged.
+/// The standard spelling of a unit, such as `N·mm` for `N*mm`, `N-mm`, `N.mm` and `N mm`. Units
+/// that are spelt out or have letters of the wrong case become symbols, such as `kN/mm` for
+/// `KN/millimetre`. An unknown unit is unchanged.
 pub(super) fn written(unit: &str) -> String {
     // The Greek letter instead of the sign.
     let unit = unit.replace('μ', "µ");
@@ -224,7 +225,7 @@ pub(super) fn written(unit: &str) -> String {
     spelt(&unit).or_else(|| product(&unit)).unwrap_or(unit)
 }
 
-/// A unit with `·` between its factors, if it is one of known size.
+/// A unit with `·` between its factors, if its size is known.
 fn product(unit: &str) -> Option<String> {
     let factors: Vec<&str> = unit.split(BETWEEN).filter(|own| !own.is_empty()).collect();
     if unit.starts_with(BETWEEN) || unit.ends_with(BETWEEN) || factors.len() < 2 {

@@ -1,4 +1,4 @@
-//! Rows of numbers, for any kind of file.
+//! Rows of numbers from any kind of file.
 
 use super::clock_time;
 use super::error::RecordError;
@@ -7,17 +7,17 @@ use super::layout::{is_comment, only_text};
 use super::number;
 use super::text::{self, Place};
 
-/// The rows below the names, one after the other.
+/// The successive rows below the names.
 pub(super) enum Source<'a> {
     Text(Box<text::Rows<'a>>),
     Sheet(Sheet),
 }
 
-/// The columns of a file that is no text; those that are not read stay empty.
+/// The columns of a file that is not text. Columns that are not read stay empty.
 pub(super) struct Sheet {
     pub(super) columns: Vec<Vec<Option<f64>>>,
     pub(super) rows: usize,
-    /// Rows that were given out.
+    /// Number of rows that were returned.
     pub(super) done: usize,
 }
 
@@ -69,7 +69,7 @@ impl Source<'_> {
         }
     }
 
-    /// Refuses numbers that may be read in two ways.
+    /// Rejects ambiguous numbers.
     pub(super) fn check(&self, header: &Header) -> Result<(), RecordError> {
         match self {
             Self::Text(rows) => rows.notation().check(|index| &header.columns[index].name),
@@ -77,7 +77,7 @@ impl Source<'_> {
         }
     }
 
-    /// What is to be said of how numbers are written.
+    /// A note on the notation of the numbers.
     pub(super) fn note(&self) -> Option<String> {
         match self {
             Self::Text(rows) if rows.notation().is_comma() => {
@@ -89,7 +89,7 @@ impl Source<'_> {
 }
 
 impl Row<'_> {
-    /// Its line, from 1; of a file without lines the number of the row.
+    /// The line of the row, from 1, or its row number if the file has no lines.
     pub(super) fn line(&self) -> usize {
         match self {
             Self::Text(row) => row.line,
@@ -97,13 +97,14 @@ impl Row<'_> {
         }
     }
 
-    /// Whether the file may end within it.
+    /// Whether the file may end within this row.
     pub(super) fn may_be_cut(&self) -> bool {
         matches!(self, Self::Text(row) if row.may_be_cut)
     }
 
-    /// Whether it is a line of text with the mark of a comment, or a row that the mark leaves out. An
-    /// error of a spreadsheet next to a number is none, nor is a row of numbers behind a name.
+    /// Whether the row is a line of text with a comment mark, or a row that the mark disables. A
+    /// spreadsheet error next to a number is not a comment, and neither is a row of numbers after a
+    /// name.
     pub(super) fn is_comment(&self, used: &[usize]) -> bool {
         let Self::Text(row) = self else {
             return false;
@@ -119,7 +120,7 @@ impl Row<'_> {
         is_marked && row.last == row.line && !is_error() && !is_row()
     }
 
-    /// The segment that it begins, if it is not the first.
+    /// The segment that begins with this row, unless it is the first segment.
     pub(super) fn opens(&self) -> Option<Place> {
         match self {
             Self::Text(row) => row.opens,
@@ -127,7 +128,7 @@ impl Row<'_> {
         }
     }
 
-    /// Number of cells; of a file that is no text the number of its columns.
+    /// Number of cells, or the number of columns if the file is not text.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Text(row) => row.len(),
@@ -135,7 +136,7 @@ impl Row<'_> {
         }
     }
 
-    /// The number in a column of that name.
+    /// The number in a column. `name` is the name of the column in an error.
     pub(super) fn number(&self, index: usize, name: &str) -> Result<f64, RecordError> {
         match self {
             Self::Text(row) => row.number(index, name),
@@ -150,7 +151,7 @@ impl Row<'_> {
         }
     }
 
-    /// The cell as text, where the file is one.
+    /// The cell as text, if the file is text.
     pub(super) fn text(&self, index: usize) -> Option<&str> {
         match self {
             Self::Text(row) => Some(row.cell(index)),

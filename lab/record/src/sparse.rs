@@ -1,34 +1,34 @@
 //! Channels of a slower sensor with numbers in only a few rows (a temperature once per second in a
 //! 500 Hz log), and sensors with separate time stamps in one table.
 //!
-//! A channel with a number in fewer than half of the rows is replaced by lines between its
-//! readings. In other channels, and in the input and the output, a missing number is a fault of the
-//! record. There is one exception: if input and output have most of their readings in different
-//! rows, or if one of them has few readings, all columns are replaced by lines.
+//! A channel with a number in fewer than half of the rows is interpolated linearly between its
+//! readings. In other channels, and in the input and the output, a missing number is an error of
+//! the record. There is one exception. If most readings of input and output are in different rows,
+//! or if one of the two has few readings, all columns are interpolated.
 
 use super::error::{Bad, RecordError};
 use super::header::Header;
 use super::roles::Roles;
 use super::Options;
 
-/// Cells of channels without a number, in the order of reading.
+/// Cells without a number, in the order of reading.
 #[derive(Default)]
 pub(super) struct Lacking {
-    /// Row of those that were kept, column of the table, and why.
+    /// Index among the rows that were kept, column of the table, and reason.
     cells: Vec<(usize, usize, Bad)>,
     /// The first error of each column, in the order of the rows.
     first: Vec<(usize, RecordError)>,
-    /// Rows with the stamp of the row before, where `--drop-bad` leaves such out.
+    /// Rows with the time stamp of the previous row, if `--drop-bad` omits such rows.
     pub(super) repeats: Vec<usize>,
 }
 
 /// The treatment of the rows without these cells.
 pub(super) struct Mended {
-    /// Rows that `--drop-bad` leaves out, in ascending order.
+    /// Rows that `--drop-bad` omits, in ascending order.
     pub(super) out: Vec<(usize, Bad)>,
     /// Columns of the table to fill.
     pub(super) filled: Vec<usize>,
-    /// Whether input and output have separate stamps.
+    /// Whether input and output have separate time stamps.
     pub(super) is_apart: bool,
 }
 
@@ -58,9 +58,8 @@ impl Lacking {
         (0..rows).filter(|row| has[*row]).collect()
     }
 
-    /// Whether most readings of the input and of the output are in rows without the other, or one of
-    /// them has a number in fewer than half of the rows. `--drop-bad` leaves out the rows without
-    /// such a number.
+    /// Whether most readings of input and output are in different rows, or one of the two has a
+    /// number in fewer than half of the rows. `--drop-bad` omits the rows without such a number.
     fn is_apart(&self, rows: usize, drop_bad: bool) -> bool {
         if self.first.iter().all(|(column, _)| *column >= 2) {
             return false;
@@ -82,7 +81,8 @@ impl Lacking {
         own.next().map(|(_, error)| error.clone())
     }
 
-    /// Which channels are sparse; what lacks in others is a fault, or leaves its row out.
+    /// Determines the sparse channels. A missing number in another channel is an error, or its row
+    /// is omitted.
     pub(super) fn mended(
         &self,
         rows: usize,
@@ -116,8 +116,8 @@ impl Lacking {
     }
 }
 
-/// Draws lines through the readings of sparse columns, NaN elsewhere; returns notes.
-/// Columns without a reading keep their NaN where nobody asked for them.
+/// Interpolates sparse columns linearly between their readings, and returns notes. A column without
+/// a reading keeps its NaN if no option requests the column.
 pub(super) fn fill(
     columns: &[usize],
     values: &mut [Vec<f64>],
@@ -168,8 +168,8 @@ pub(super) fn is_empty(values: &[f64]) -> bool {
     values.first().is_some_and(|value| value.is_nan())
 }
 
-/// Replaces NaN with a line between the neighbouring numbers, at the ends with the nearest number;
-/// returns the number of readings.
+/// Replaces NaN by linear interpolation between the neighbouring numbers, and at the ends by the
+/// nearest number. Returns the number of readings.
 fn line(values: &mut [f64], at: &[f64]) -> usize {
     let readings: Vec<usize> = (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
     let (Some(&first), Some(&last)) = (readings.first(), readings.last()) else {

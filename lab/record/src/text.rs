@@ -1,4 +1,4 @@
-//! From text to rows of cells.
+//! Splits a text into rows of cells.
 
 use super::error::{shown, RecordError};
 use super::limits::PIECES;
@@ -6,27 +6,27 @@ use super::number::Notation;
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator};
 use std::io::{Chain, Read, Take};
 
-/// Behind the text: the end of its last line, and one byte that only a cell
-/// with an open quote reaches.
+/// The bytes after the text: the end of its last line, and one byte that only a cell with an open
+/// quote reaches.
 const END: &[u8] = b"\n\n";
 
-/// The rows of a text, the header being the first.
+/// The rows of a text. The header is the first row.
 pub(super) struct Rows<'a> {
     text: &'a str,
     reader: Reader<Take<Chain<&'a [u8], &'static [u8]>>>,
     cells: StringRecord,
     separator: u8,
     notation: Notation,
-    /// Lines of the file before this text.
+    /// Number of lines of the file before this text.
     before: usize,
     line: usize,
-    /// Where the row that was read last begins \[bytes\].
+    /// Start of the row that was read last \[bytes\].
     start: usize,
     /// Whether the file may end within its last line.
     may_be_cut: bool,
-    /// The segments behind this text.
+    /// The segments after this text.
     more: std::vec::IntoIter<Segment<'a>>,
-    /// The segment that begins with the next row, if it is not the first.
+    /// The segment that begins with the next row, unless it is the first segment.
     opens: Option<Place>,
 }
 
@@ -34,29 +34,29 @@ pub(super) struct Rows<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Segment<'a> {
     pub(super) text: &'a str,
-    /// Lines of the file before its rows.
+    /// Number of lines of the file before the rows of the segment.
     pub(super) before: usize,
-    /// Whether the lines between its names and its rows are those of the first segment.
+    /// Whether the lines between the names and the rows are the same as in the first segment.
     pub(super) is_alike: bool,
     pub(super) place: Place,
 }
 
-/// Which of the segments of a file one is.
+/// The position of a segment among the segments of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
-    /// The line of its names.
+    /// The line of the names.
     pub(super) names: usize,
     /// Its number, from 1.
     pub(super) number: usize,
-    /// How many there are.
+    /// The number of segments.
     pub(super) count: usize,
 }
 
-/// One row: a line, or several if a quoted cell holds line ends.
+/// One row: a line, or several lines if a quoted cell contains line ends.
 pub(super) struct Row<'a> {
     cells: &'a StringRecord,
     notation: &'a Notation,
-    /// The segment that it begins, if it is not the first.
+    /// The segment that begins with this row, unless it is the first segment.
     pub(super) opens: Option<Place>,
     /// The line on which it begins, from 1.
     pub(super) line: usize,
@@ -95,7 +95,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The rows of these segments, one after the other.
+    /// The rows of these segments, in order.
     pub(super) fn of(mut self, segments: Vec<Segment<'a>>) -> Self {
         let ends = segments
             .last()
@@ -118,12 +118,12 @@ impl<'a> Rows<'a> {
         true
     }
 
-    /// Whether there are segments behind this one.
+    /// Whether there are segments after this one.
     pub(super) fn has_more(&self) -> bool {
         self.more.len() > 0
     }
 
-    /// The same rows, of a file whose last line has no end.
+    /// The same rows of a file whose last line is not terminated.
     pub(super) fn cut_off(self) -> Self {
         Self {
             may_be_cut: true,
@@ -136,7 +136,7 @@ impl<'a> Rows<'a> {
         self.may_be_cut && !self.has_more() && self.rest().0.is_empty()
     }
 
-    /// The same rows, numbered behind that many lines of the file.
+    /// The same rows, numbered after this number of lines of the file.
     pub(super) fn after(self, before: usize) -> Self {
         Self { before, ..self }
     }
@@ -145,17 +145,18 @@ impl<'a> Rows<'a> {
         self.separator
     }
 
-    /// How the numbers are written.
+    /// The notation of the numbers.
     pub(super) fn notation(&self) -> &Notation {
         &self.notation
     }
 
-    /// The text from the row on that was read last.
+    /// The text from the row that was read last to the end.
     pub(super) fn here(&self) -> &'a str {
         self.text.get(self.start..).unwrap_or_default()
     }
 
-    /// The text behind the row that was read last, and the lines of the file before it.
+    /// The text after the row that was read last, and the number of lines of the file before this
+    /// text.
     pub(super) fn rest(&self) -> (&'a str, usize) {
         let position = self.reader.position();
         let rest = self.text.get(position.byte() as usize..);
@@ -170,7 +171,7 @@ impl<'a> Rows<'a> {
         self.line
     }
 
-    /// The next row, unless it is blank, too long or has an open quote.
+    /// The next row. A row that is blank, too long or has an open quote is an error.
     pub(super) fn read(&mut self) -> Result<Option<Row<'_>>, RecordError> {
         let is_over = |own: &Self| own.reader.position().byte() as usize >= own.text.len();
         while is_over(self) && self.next_segment() {}
@@ -225,7 +226,7 @@ impl<'a> Row<'a> {
         self.cells.len()
     }
 
-    /// A cell, trimmed and without its quotes; empty where there is none.
+    /// A cell, trimmed and without its quotes. The text is empty if the cell does not exist.
     pub(super) fn cell(&self, index: usize) -> &'a str {
         let cell = self.cells.get(index).unwrap_or_default().trim();
         // Quotes behind a blank, `t, "x"`, are none to the CSV standard.
@@ -245,8 +246,8 @@ impl<'a> Row<'a> {
     }
 }
 
-/// The separator that the header uses: of tab, `;` and `,` the one that gives
-/// it the most cells, and that leaves no quotes in them.
+/// The separator of the header. Among tab, `;` and `,`, this is the sign that gives the most cells
+/// and leaves no quotes in them.
 fn separator(text: &str) -> u8 {
     let fit = |separator: &u8| match Rows::separated_by(*separator, text).read() {
         Ok(Some(row)) => (!row.cells.iter().any(|cell| cell.contains('"')), row.len()),
@@ -322,7 +323,7 @@ mod tests {
         }
     }
 
-    /// Read-ahead of the reader [bytes].
+    /// Size of the read-ahead buffer [bytes].
     const AHEAD: usize = 1 << 13;
 
     #[test]

@@ -1,9 +1,9 @@
 //! Commas that may separate thousands.
 //!
-//! A program that writes decimals writes equally many in every cell (`900,000`), or as few as the
-//! number needs (`1,2`). A program that groups digits writes `900` and `1,197`. A column is
-//! ambiguous, and therefore refused, if every comma is between one to three digits and three
-//! digits, and if the column also has whole numbers of at most three digits.
+//! A program that writes decimals writes the same number of decimals in every cell (`900,000`), or
+//! as few as the number needs (`1,2`). A program that groups digits writes `900` and `1,197`. A
+//! column is rejected as ambiguous under two conditions. Every comma has one to three digits before
+//! it and three digits after it, and the column also has whole numbers of at most three digits.
 
 use super::error::{shown, RecordError, SHOWN};
 
@@ -13,7 +13,7 @@ type Place = (usize, String);
 /// The evidence from the cells of one column.
 #[derive(Clone, Default)]
 struct Column {
-    /// A cell that grouped digits do not have: the commas are decimal signs.
+    /// Whether a cell cannot contain grouped digits, so that the commas are decimal signs.
     decimal: bool,
     /// The first cell like `1,197`.
     grouped: Option<Place>,
@@ -28,7 +28,7 @@ pub(super) struct Thousands {
 }
 
 impl Thousands {
-    /// Takes in a cell that holds a number.
+    /// Adds the evidence from a cell that contains a number.
     pub(super) fn see(&mut self, index: usize, cell: &str, line: usize) {
         if self.columns.len() <= index {
             self.columns.resize(index + 1, Column::default());
@@ -48,7 +48,7 @@ impl Thousands {
         }
     }
 
-    /// Refuses the first cell that may be two numbers; `name` is that of a column.
+    /// Rejects the first ambiguous cell. `name` returns the name of a column.
     pub(super) fn check<'n>(&self, name: impl Fn(usize) -> &'n str) -> Result<(), RecordError> {
         let open = self.columns.iter().enumerate().filter_map(|(index, own)| {
             let pair = own.grouped.as_ref().zip(own.whole.as_ref());
@@ -70,14 +70,15 @@ impl Thousands {
     }
 }
 
-/// The number of digits of a cell that holds a sign and digits alone.
+/// The number of digits of a cell that contains only digits, possibly after a sign.
 fn digits(cell: &str) -> Option<usize> {
     let own = cell.strip_prefix(['+', '-']).unwrap_or(cell);
     (!own.is_empty() && own.bytes().all(|b| b.is_ascii_digit())).then_some(own.len())
 }
 
-/// Whether a cell shows that commas do not group its column's digits: decimals that are not
-/// three, nothing but zero before them, or four digits and more without a comma.
+/// Whether a cell shows that commas do not group the digits of its column. The number of decimals
+/// is then not three, the digits before the comma are more than three or start with zero, or four
+/// or more digits have no comma.
 fn decides(cell: &str) -> bool {
     match cell.split_once(',') {
         None => digits(cell).is_some_and(|count| count > 3),

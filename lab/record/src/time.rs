@@ -1,11 +1,11 @@
-//! The time axis: strictly increasing seconds, or a row number over a rate.
+//! The time axis: strictly increasing seconds, or row numbers divided by a rate.
 
 use super::error::{shown, Bad, RecordError, NAME_LENGTH, SHOWN};
 use super::header::Header;
 use super::source::Row;
 use super::{clock_time, segments, units, Options};
 
-/// Turns rows into seconds since the first row, and cuts.
+/// Converts the time stamps of rows to seconds since the first row, and applies the cuts.
 pub(super) struct Clock {
     source: Source,
     skip: f64,
@@ -17,9 +17,9 @@ pub(super) struct Clock {
     first: Option<f64>,
     last: f64,
     of_day: bool,
-    /// Whether the stamps have minutes and seconds alone.
+    /// Whether the time stamps consist of minutes and seconds only.
     is_minutes: bool,
-    /// Whether the stamps of a column called `%time` are nanoseconds.
+    /// Whether the time stamps of a column with the name `%time` are nanoseconds.
     is_ros: bool,
     repeated: usize,
     first_repeat: Option<(usize, String)>,
@@ -31,26 +31,26 @@ pub(super) enum Stamp {
     Kept(f64),
     /// Before `--start` or after `--end`.
     Cut,
-    /// The time stamp of the previous row \[s\], if such rows may be omitted.
+    /// The same time stamp as in the previous row \[s\], if such rows may be omitted.
     Repeats(f64),
     /// A time stamp before that of an earlier row \[s\], and its error.
     Backwards(f64, RecordError),
 }
 
-/// A median step without a unit above which milliseconds are suspected \[s\]: two samples per
+/// Median step without a unit above which milliseconds are suspected \[s\], because two samples per
 /// second or fewer do not show hysteresis in motion.
 const LONG_STEP: f64 = 0.5;
 
-/// A median step without a unit above which it cannot be in seconds, if a smaller unit makes it the
-/// step of a logger \[s\]: nobody logs hysteresis twice in three minutes.
+/// Median step without a unit above which the unit cannot be seconds, if the step is plausible for
+/// a logger in a smaller unit \[s\].
 const NO_STEP: f64 = 100.0;
 
-/// A first stamp without a unit above which it cannot be in seconds \[s\], three thousand years:
-/// seconds since 1970 have ten digits, milliseconds thirteen.
+/// First time stamp without a unit above which the unit cannot be seconds \[s\]. Seconds since 1970
+/// have ten digits, and milliseconds have thirteen digits.
 const NO_STAMP: f64 = 1e11;
 
-/// A mean step without a unit below which stamps are not taken for seconds \[s\]: spreadsheets
-/// count days, and nobody samples a cable a million times a second.
+/// Mean step without a unit below which the unit cannot be seconds \[s\]. Spreadsheets, for
+/// example, count days.
 const SHORT_STEP: f64 = 1e-6;
 
 enum Source {
@@ -59,7 +59,7 @@ enum Source {
         name: String,
         scale: f64,
         unitless: bool,
-        /// Whether ROS may have written it, which counts nanoseconds since 1970.
+        /// Whether ROS may have written the column. ROS counts nanoseconds since 1970.
         is_ros: bool,
     },
     Rate(f64),
@@ -187,12 +187,12 @@ impl Clock {
         (t >= self.skip || self.skip <= 0.0) && t <= self.until
     }
 
-    /// Rows seen, those that were cut included.
+    /// Number of rows so far, including rows that were cut.
     pub(super) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Rows that were cut.
+    /// Number of rows that were cut.
     pub(super) fn cut(&self) -> usize {
         self.cut
     }
@@ -202,8 +202,8 @@ impl Clock {
         self.last
     }
 
-    /// Rejects repeated time stamps, unless they are allowed, and describes them; also rejects
-    /// stamps without a unit that cannot be seconds.
+    /// Rejects repeated time stamps, unless they are allowed, and time stamps without a unit that
+    /// cannot be seconds.
     pub(super) fn finish(&self, header: &Header, may_repeat: bool) -> Result<(), RecordError> {
         if let Source::Column {
             index,
@@ -254,7 +254,8 @@ impl Clock {
         Err(RecordError::at(*line, message).on(name).from(Bad::Repeated))
     }
 
-    /// Rejects stamps without a unit that cannot be seconds and may be milliseconds or less.
+    /// Rejects time stamps without a unit that cannot be seconds and may be in milliseconds or a
+    /// smaller unit.
     pub(super) fn check_unit(&self, header: &Header, kept: &[f64]) -> Result<(), RecordError> {
         let step = median_step(kept);
         let first = self.first.unwrap_or_default();
@@ -278,8 +279,8 @@ impl Clock {
         }
     }
 
-    /// The column of stamps without a unit whose median step is long for seconds, and the question
-    /// after its unit.
+    /// The name of a time column without a unit whose median step is long for seconds, and the
+    /// question about its unit.
     fn asked_for_a_unit(&self, step: f64) -> Option<(&str, String)> {
         let Source::Column {
             name,
@@ -324,14 +325,15 @@ impl Clock {
     }
 }
 
-/// The unit below a second in which this step would be the step of a logger, if there is one.
+/// The unit smaller than a second in which this step is plausible for a logger, if there is one.
 fn likely_unit(step: f64) -> Option<&'static str> {
     let units = [("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)];
     let own = units.iter().find(|(_, seconds)| step * seconds < LONG_STEP);
     own.map(|(unit, _)| *unit)
 }
 
-/// The time of day in a cell, if the first one has one; then all must have one.
+/// The time of day in a cell, if the first cell is a time of day. All other cells must then also be
+/// times of day.
 fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<f64>, RecordError> {
     if !(all || first) {
         return Ok(None);
@@ -351,8 +353,8 @@ fn of_day(row: &Row<'_>, index: usize, all: bool, first: bool) -> Result<Option<
     }
 }
 
-/// The error for a cell that is neither a number nor a time; if it looks like a time, with the
-/// accepted forms.
+/// The error for a cell that is neither a number nor a time. If the cell looks like a time, the
+/// error states the accepted forms.
 fn no_stamp(row: &Row<'_>, index: usize, error: RecordError) -> RecordError {
     let cell = row.text(index).unwrap_or_default();
     match clock_time::expected(cell) {

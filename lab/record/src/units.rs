@@ -1,4 +1,4 @@
-//! Units as headers state them.
+//! Units in the forms that occur in headers.
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::sizes::{is_known, of_time, written};
@@ -47,7 +47,8 @@ const SUFFIXES: [(&str, &str); 40] = [
     ("uA", "µA"),
 ];
 
-/// Units whose size is not needed here, in brackets or in a row of units.
+/// Further units that are recognised in brackets or in a row of units. Their size is not needed
+/// here.
 const PLAIN: [&str; 23] = [
     "°C", "C", "°F", "K", "rad/s²", "1/min", "rpm", "Hz", "kHz", "kg", "g", "%", "1", "-", "–",
     "W", "counts", "count", "pulses", "ticks", "steps", "LSB", "a.u.",
@@ -67,7 +68,8 @@ pub(super) fn is_unit(text: &str) -> bool {
         || is_ratio(&own)
 }
 
-/// Whether a text is a unit over another one: `mm/mm`, `N/mm`, `m/s²`. `N/A` is none.
+/// Whether a text is a quotient of two units, such as `mm/mm`, `N/mm` or `m/s²`. `N/A` is not a
+/// quotient.
 fn is_ratio(text: &str) -> bool {
     let of = |part: &str| {
         let power = part.trim().trim_end_matches(['²', '³', '^', '2', '3']);
@@ -97,7 +99,8 @@ pub(super) fn is_label(cell: &str) -> bool {
     ["unit", "units", "einheit", "einheiten", "unité", "unités"].contains(&own.as_str())
 }
 
-/// The unit in a cell of a row of units, if the reader knows it; it may be in brackets.
+/// The unit in a cell of a row of units, if the reader knows this unit. The unit may be in
+/// brackets.
 pub(super) fn alone(cell: &str) -> Option<String> {
     let inner = [('[', ']'), ('(', ')')].iter().find_map(|(open, close)| {
         let inner = cell.strip_prefix(*open)?.strip_suffix(*close)?;
@@ -119,13 +122,13 @@ const LENGTHS: [&str; 8] = [
     "length",
 ];
 
-/// Names that measure no length, time, current or temperature: behind them `_m`, `_s`, `_A` and `_K` are
-/// indices, as in `tau_m`, the motor's torque.
+/// Names of quantities other than length, time, current and temperature. After these names, `_m`,
+/// `_s`, `_A` and `_K` are indices, as in `tau_m`, the torque of the motor.
 const OTHERS: [&str; 10] = [
     "tau", "torque", "moment", "force", "f", "phi", "theta", "angle", "alpha", "omega",
 ];
 
-/// Endings that are words as well as units: an input, an amplitude, a foot, a lever.
+/// Endings that may be words instead of units, such as `in` for an input or `foot` for a lever.
 const WORDS: [&str; 6] = ["in", "amp", "foot", "turn", "rad", "bar"];
 
 /// Splits the ending such as `_mm`, `_inches` or ` deg` off a name, with the unit that it means.
@@ -165,8 +168,8 @@ fn is_any(words: &[&str], own: &str) -> bool {
     words.iter().any(|word| word.eq_ignore_ascii_case(own))
 }
 
-/// Splits `name [unit]`; a unit that the reader knows may stand as `name (unit)` or `name / unit`
-/// too.
+/// Splits `name [unit]`. If the reader knows the unit, `name (unit)` and `name / unit` are also
+/// split.
 pub(super) fn stated(cell: &str) -> Option<(&str, Option<String>)> {
     let cell = cell.trim();
     if let Some((name, unit)) = cell
@@ -197,7 +200,7 @@ const VELOCITIES: [&str; 14] = [
     "rpm", "1/min", "km/h",
 ];
 
-/// Names that velocities have where no unit is stated.
+/// Names of velocities without a unit.
 const VELOCITY_NAMES: [&str; 11] = [
     "v", "vel", "speed", "omega", "dx", "xd", "xdot", "x_dot", "dq", "qd", "qdot",
 ];
@@ -212,7 +215,7 @@ pub fn is_velocity(name: &str, unit: Option<&str>) -> bool {
     }
 }
 
-/// Seconds in one unit of time, if it is one that the reader knows.
+/// Number of seconds in a unit of time, if the reader knows the unit.
 pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
     match unit {
         None => Some(1.0),
@@ -220,7 +223,7 @@ pub(super) fn seconds(unit: Option<&str>) -> Option<f64> {
     }
 }
 
-/// The unit of time that a name is or ends in, and the rest of the name: `millis`, `elapsed_us`,
+/// Splits a unit of time off a name that is such a unit or ends in one: `millis`, `elapsed_us`,
 /// `timeMs`.
 fn split_time(name: &str) -> Option<(&str, &'static str)> {
     let name = without_signs(name);
@@ -247,8 +250,8 @@ pub(super) fn time_in_name(name: &str) -> Option<&'static str> {
     split_time(name).map(|(_, unit)| unit)
 }
 
-/// Whether a name can be nothing but that of a time: `ms`, `timeMs` and `__time` are, `s` and `min`
-/// are not.
+/// Whether a name can only be the name of a time. This is true for `ms`, `timeMs` and `__time`, but
+/// not for `s` and `min`.
 pub(super) fn is_time_alone(name: &str) -> bool {
     let name = without_signs(name);
     let is_time = |own: &str| is_any(&["time", "timestamp"], own);

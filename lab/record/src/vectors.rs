@@ -1,23 +1,23 @@
-//! Named variables in, columns out.
+//! Converts named variables to columns.
 //!
-//! A column is a vector; a field of a structure; a column of a matrix, by the name that a
-//! list of names in the same place gives it, or as `data(:,2)`; or the `Data` of a structure
-//! with a `Name`, as trace exports write it.
+//! A column is a vector, a field of a structure, a column of a matrix, or the `Data` of a structure
+//! with a `Name` (as in exported traces). The name of a matrix column is in a list of names next to
+//! the matrix. Otherwise the name has the form `data(:,2)`.
 
 use super::error::{RecordError, SHOWN};
 use super::limits::{COLUMNS, DEPTH};
 
-/// A column with all that may name it.
+/// A column with all its possible names.
 pub(super) struct Vector {
     /// The last part of its name.
     pub(super) name: String,
-    /// The whole name, `run.signals(2).x`.
+    /// The whole name, such as `run.signals(2).x`.
     pub(super) path: String,
     pub(super) unit: Option<String>,
     pub(super) values: Vec<f64>,
 }
 
-/// What a variable holds.
+/// The value of a variable.
 // Only files of MATLAB's have cells and objects.
 #[cfg_attr(not(feature = "mat"), allow(dead_code))]
 #[derive(Debug, PartialEq)]
@@ -32,13 +32,13 @@ pub(super) enum Value {
     Cells(Vec<Value>),
     /// An array of structures, each with its fields.
     Structures(Vec<Vec<(String, Value)>>),
-    /// An object of MATLAB (a table or a time series) of this class.
+    /// A MATLAB object of this class, such as a table or a time series.
     Object(String),
-    /// Complex or sparse numbers, functions.
+    /// Complex or sparse numbers, or functions.
     Other,
 }
 
-/// The columns of variables, or why there are none.
+/// The columns of variables, or the reason why there are none.
 pub(super) fn vectors(
     variables: Result<Vec<(String, Value)>, String>,
 ) -> Result<Vec<Vector>, RecordError> {
@@ -83,7 +83,7 @@ pub(super) fn vectors(
     Ok(found)
 }
 
-/// Whether an object of MATLAB's is among variables or their fields.
+/// Whether the variables or their fields include a MATLAB object.
 fn has_objects(all: &[(String, Value)]) -> bool {
     all.iter().any(|(_, value)| match value {
         Value::Object(_) => true,
@@ -173,7 +173,7 @@ fn matrix(
     }
 }
 
-/// A list of names: a cell array of texts, or a character array with a row for each.
+/// A list of names: a cell array of texts, or a character array with one row for each name.
 fn names(value: &Value) -> Option<Vec<String>> {
     match value {
         Value::Text(rows) => Some(rows.clone()),
@@ -192,7 +192,7 @@ fn one_text(value: &Value) -> Option<String> {
     }
 }
 
-/// A structure with a name and one vector is a column of that name.
+/// Reads a structure with a name and one vector as a column with this name.
 fn trace(path: &str, own: &[(String, Value)], found: &mut Vec<Vector>) -> bool {
     let field = |names: &[&str]| {
         let is = |(name, _): &&(String, Value)| names.contains(&name.to_lowercase().as_str());

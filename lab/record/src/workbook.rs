@@ -1,8 +1,9 @@
-//! Excel workbooks (`.xlsx`): a sheet becomes a text, one line per row, that is read like any other.
+//! Excel workbooks (`.xlsx`). A sheet becomes a text with one line per row, which is read like any
+//! other text.
 //!
 //! Source: ECMA-376, *Office Open XML*, part 1, chapter 18. Numbers keep all their digits. A date
-//! becomes `2026-03-01T14:03:21.250000`, a time of day `14:03:21.250000` and a duration its seconds.
-//! An error such as `#DIV/0!` becomes an empty cell.
+//! becomes `2026-03-01T14:03:21.250000`, and a time of day becomes `14:03:21.250000`. A duration
+//! becomes its number of seconds. An error such as `#DIV/0!` becomes an empty cell.
 
 use super::encoding::Decoded;
 use super::error::{shown, RecordError, NAME_LENGTH};
@@ -21,7 +22,7 @@ const TAB: char = '\t';
 /// A sheet as text.
 pub(super) struct Sheet {
     text: String,
-    /// Which sheet it is, if others have tables too.
+    /// A note on the selected sheet, if other sheets also contain tables.
     pub(super) note: Option<String>,
 }
 
@@ -35,7 +36,7 @@ impl Sheet {
     }
 }
 
-/// Why a workbook cannot be read.
+/// The reason why a workbook cannot be read.
 enum Failure {
     Damage(String),
     Refused(RecordError),
@@ -112,7 +113,7 @@ fn chosen(bytes: &[u8], options: &Options) -> Result<Sheet, Failure> {
     Ok(Sheet { text, note })
 }
 
-/// The text of a sheet; every line has as many cells as the longest.
+/// The text of a sheet. All lines have the same number of cells.
 fn text(book: &mut Book<'_>, sheet: usize) -> Result<String, Failure> {
     // The rows so far, and how many cells each has.
     let (mut lines, mut counts) = (String::new(), vec![0]);

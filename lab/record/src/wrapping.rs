@@ -1,13 +1,13 @@
-//! An angle that wraps around: a single-turn encoder jumps back by a turn.
+//! An angle that wraps around, because a single-turn encoder jumps back by one turn.
 //!
-//! Each jump has the size of a known turn (2π, 360, or a power of two of counts), the signal stays
-//! within one turn, and the other signals do not respond to the jump, as they would to a sawtooth
-//! or a switched reference.
+//! Three conditions identify such an angle. Each jump has the size of a known turn (2π, 360, or a
+//! power of two of counts). The signal stays within one turn. The other signals do not respond to
+//! the jump, as they would to a sawtooth or a reference step.
 
 use super::scale::{range, steps, times, usual, BETTER, CLEAR, FEW, GRAVE, LEAP};
 use std::f64::consts::TAU;
 
-/// Removes the jumps from an angle; returns a note.
+/// Removes the jumps from an angle, and returns a note.
 pub(super) fn unwrap(name: &str, angle: &mut [f64], others: &[&[f64]]) -> Option<String> {
     let leaps = leaps(angle)?;
     let (turn, shown) = turn(angle, &leaps)?;
@@ -40,7 +40,7 @@ fn leaps(signal: &[f64]) -> Option<Vec<usize>> {
     (!leaps.is_empty()).then_some(leaps)
 }
 
-/// The known turn that equals all jumps, and its name.
+/// The size of the known turn that equals all jumps, and its name.
 fn turn(signal: &[f64], leaps: &[usize]) -> Option<(f64, String)> {
     let (low, high) = range(signal);
     let mut near = 0.0_f64;

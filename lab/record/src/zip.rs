@@ -1,4 +1,4 @@
-//! Zip archives: their files, stored or deflated.
+//! Zip archives with stored or deflated files.
 //!
 //! Source: PKWARE, *APPNOTE.TXT*. Every length is checked against the number of bytes.
 
@@ -7,14 +7,14 @@ use flate2::read::DeflateDecoder;
 use flate2::Crc;
 use std::io::Read;
 
-/// Why the bytes are no archive.
+/// The reason why the bytes are not an archive.
 pub(super) type Damage = String;
 
 pub(super) fn damaged(what: &str) -> Damage {
     format!("the file is damaged: {what}")
 }
 
-/// The names of the files in an archive, and where their entries in the directory begin.
+/// The names of the files in an archive, and the positions of their entries in the directory.
 pub(super) fn entries(bytes: &[u8]) -> Result<Vec<(String, usize)>, Damage> {
     let end = b"PK\x05\x06";
     let end = bytes.windows(end.len()).rposition(|own| own == end);
@@ -60,7 +60,7 @@ fn place(bytes: &[u8], entry: usize) -> Result<(usize, usize), Damage> {
     Ok((packed, local))
 }
 
-/// The bytes of the file whose entry in the directory begins there; at most `left` of them.
+/// The bytes of the file whose directory entry begins at `entry`, at most `left` bytes.
 pub(super) fn unpacked(bytes: &[u8], entry: usize, left: u64) -> Result<Vec<u8>, Damage> {
     let field = |at: usize| number::<2>(bytes, entry + at);
     let (flags, method) = (field(8)?, field(10)?);
@@ -113,7 +113,7 @@ pub(super) fn slice(bytes: &[u8], at: usize, length: usize) -> Result<&[u8], Dam
 mod tests {
     use super::*;
 
-    /// An archive of one stored file, whose entry in the directory has its numbers in ZIP64's field.
+    /// An archive of one stored file whose directory entry has its numbers in the ZIP64 field.
     fn long(text: &[u8]) -> Vec<u8> {
         let mut crc = Crc::new();
         crc.update(text);

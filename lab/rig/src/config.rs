@@ -11,7 +11,7 @@ use bowden::{Error, Real};
 /// positive. Dampings, noise and `velocity_lag` must not be negative. rho, sigma and n are checked
 /// by [`BoucWen::try_new`](bowden::hysteresis::BoucWen::try_new), and `delay` is at most
 /// [`MOST_DELAY`](super::MOST_DELAY). The sub-step h must resolve the vibration of the cable:
-/// `2·h·c/m + h²·k/m <= 1`. At 4, the integration becomes unstable.
+/// `2·h·c/m + h²·k/m <= 1`. If the left side reaches 4, the integration becomes unstable.
 ///
 /// ```
 /// use bowden_rig::{Rig, RigConfig};
@@ -61,7 +61,7 @@ pub struct RigConfig<T> {
     pub t0: T,
     /// Bouc-Wen rho \[1/(N·m)\].
     pub rho: T,
-    /// Bouc-Wen sigma, in a feedback loop at most `B/(2·kappa_eta·rho)`.
+    /// Bouc-Wen sigma. In a feedback loop, sigma must be at most `B/(2·kappa_eta·rho)`.
     pub sigma: T,
     /// Bouc-Wen n.
     pub n: T,
@@ -81,7 +81,8 @@ pub struct RigConfig<T> {
     pub converter_counts: T,
     /// Counts of an encoder per turn.
     pub encoder_counts: T,
-    /// Time constant of the filter for the differences of the encoder positions \[s\].
+    /// Time constant of the velocity filter, which smooths the differences of the encoder positions
+    /// \[s\].
     pub velocity_lag: T,
     /// Samples between a command and its effect on the drive.
     pub delay: u8,

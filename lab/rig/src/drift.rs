@@ -8,8 +8,8 @@ use bowden::Real;
 ///
 /// The drift consists of three Ornstein-Uhlenbeck processes with unit variance. Each process
 /// advances exactly over a sample: `o⁺ = a·o + sqrt(1 − a²)·N(0, 1)` with `a = e^(−dt/time)`. B
-/// becomes `B − b·|o1|`, within [0.85, 1]. kappa_eta changes by the fraction `kappa_eta·o2`, within
-/// ±50 %. T0 becomes `T0 + t0·o3`. All processes start at zero.
+/// becomes `B − b·|o1|`, clamped to [0.85, 1]. kappa_eta changes by the fraction `kappa_eta·o2`,
+/// clamped to ±50 %. T0 becomes `T0 + t0·o3`. All processes start at zero.
 ///
 /// ```
 /// let drift = bowden_rig::Drift::<f64>::reference();

@@ -12,15 +12,15 @@
 //! ```
 //!
 //! The integration uses short sub-steps and computes velocities before positions. The torque
-//! sensors have a lag, white noise and an A/D converter. Encoders measure the angles, and the rates
-//! are filtered differences of the angles. The command reaches the drive after a delay of whole
-//! samples. B, kappa_eta and T0 can drift as in a moving conduit ([`Drift`]), and any effect of the
-//! catalogue can be added without the controller's knowledge. One seed determines all random
-//! numbers.
+//! sensors have a lag, white noise and an A/D converter. Encoders measure the angles. Velocities
+//! and accelerations are filtered differences of the angles. The command reaches the drive after a
+//! delay of whole samples. B, kappa_eta and T0 can drift as in a moving conduit ([`Drift`]). Any
+//! effect of the catalogue can be added without the controller's knowledge. One seed determines all
+//! random numbers.
 //!
 //! The paper does not give the inertias, stiffnesses, drive gain or noise. They were chosen so that
-//! the errors of the PI controller and of the adaptive law match Table 3 of the paper. These two
-//! errors are therefore a calibration. No other result was fitted.
+//! the errors of the PI controller and of the adaptive law match Table 3 of the paper. The
+//! agreement of these two errors is therefore calibrated. No other result was fitted.
 //!
 //! The crate is `no_std` and needs no heap, so the same trial can run on a microcontroller. The
 //! features `serde`, `defmt` and `std` are off by default.
@@ -175,8 +175,8 @@ impl<T: Real, const N: usize> Rig<T, N> {
     /// gain of an inertia must therefore be smaller than the inertia of its pulley.
     ///
     /// # Errors
-    /// The errors of the configuration (see [`RigConfig`]); [`Error::Capacity`] for more than `N`
-    /// effects; [`Error::OutOfRange`] with `"channel"`; [`Error::NonFinite`] with `"origin"` or
+    /// The errors of the configuration (see [`RigConfig`]), [`Error::Capacity`] for more than `N`
+    /// effects, [`Error::OutOfRange`] with `"channel"`, or [`Error::NonFinite`] with `"origin"` or
     /// `"gain"`.
     pub fn try_new(config: RigConfig<T>, undeclared: &[Term<T>]) -> Result<Self, Error> {
         config.check()?;
@@ -245,8 +245,8 @@ impl<T: Real, const N: usize> Rig<T, N> {
     /// [`step`](Self::step) with an additional external torque on the joint \[N·m\].
     ///
     /// On a test bench, this torque makes the motion of the joint independent of the transmitted
-    /// torque. Without it, the spring couples the angle to the torque, and no record can
-    /// distinguish the two.
+    /// torque. Without this torque, the spring couples the angle to the torque, and no record can
+    /// distinguish their effects.
     pub fn step_with_load(
         &self,
         state: &mut RigState<T, N>,
@@ -311,7 +311,7 @@ impl<T: Real, const N: usize> Rig<T, N> {
         state.sample
     }
 
-    /// Puts a command into the queue and returns the one that reaches the drive.
+    /// Adds a command to the queue and returns the command that reaches the drive.
     fn enqueue(&self, state: &mut RigState<T, N>, command: T) -> T {
         let command = if command.is_finite() {
             command

@@ -23,7 +23,7 @@ pub struct Noise {
     spare: Option<u64>,
 }
 
-/// From one state to the next: 2^64 over the golden ratio.
+/// Increment from one state to the next: 2^64 divided by the golden ratio.
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Noise {
@@ -79,7 +79,7 @@ fn mixed(state: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// In [0, 1), exact in `f64`.
+/// A number in [0, 1), exact in `f64`.
 fn uniform<T: Real>(bits: u64) -> T {
     T::from(bits >> 11).map_or_else(T::zero, |count| count * T::from_f64(0.5 * f64::EPSILON))
 }

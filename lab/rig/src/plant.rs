@@ -13,7 +13,7 @@ use bowden::{Error, Real};
 pub(super) struct Plant<T, const N: usize> {
     config: RigConfig<T>,
     shape: BoucWen<T>,
-    /// The first `len` effects count; the others add nothing.
+    /// Only the first `len` effects are used.
     undeclared: [Term<T>; N],
     len: usize,
 }
@@ -75,7 +75,7 @@ impl<T: Real, const N: usize> PlantState<T, N> {
         self.hysteresis.eta()
     }
 
-    /// B, kappa_eta and T0 of the sub-steps that follow.
+    /// Sets B, kappa_eta and T0 for the following sub-steps.
     pub(super) fn configure(&mut self, b: T, kappa_eta: T, t0: T) {
         self.configuration = (b, kappa_eta, t0);
     }
@@ -126,7 +126,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         self.undeclared.get(..self.len).unwrap_or(&self.undeclared)
     }
 
-    /// One sub-step of length `h`; returns whether everything stayed finite.
+    /// Computes one sub-step of length `h`, and returns whether all values stayed finite.
     #[inline]
     pub(super) fn step(&self, state: &mut PlantState<T, N>, command: T, load: T, h: T) -> bool {
         let c = &self.config;
@@ -167,7 +167,7 @@ impl<T: Real, const N: usize> Plant<T, N> {
         state.is_finite()
     }
 
-    /// The torque that the transmission sees behind the input stages.
+    /// The torque at the transmission, after the input stages.
     #[inline]
     fn staged_input(&self, state: &mut PlantState<T, N>, input: Motion<T>, h: T) -> T {
         let mut moved = input.position;

@@ -53,7 +53,7 @@ impl<T: Real> TorqueSensorState<T> {
     }
 }
 
-/// An encoder, and the rates that firmware computes from it.
+/// An encoder, and the velocity and acceleration that firmware computes from its counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Encoder<T> {
@@ -62,7 +62,7 @@ pub(super) struct Encoder<T> {
     lag: T,
 }
 
-/// Last count and filtered rates.
+/// Last count, filtered velocity and filtered acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -78,7 +78,7 @@ impl<T: Real> Encoder<T> {
         }
     }
 
-    /// The angle in whole counts; differences through a lag with factor dt/(lag + dt).
+    /// Rounds the angle to whole counts and filters the differences with the factor dt/(lag + dt).
     pub(super) fn read(&self, state: &mut EncoderState<T>, angle: T, dt: T) -> Motion<T> {
         let position = (angle / self.count).round() * self.count;
         let share = dt / (self.lag + dt);

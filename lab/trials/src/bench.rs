@@ -1,9 +1,9 @@
 //! The rig's own open-loop bench record, and its identification.
 //!
-//! A multisine drives the motor, and a slower one the joint. The torque covers the range that the
-//! reference needs, and the joint's angle is independent of the torque, unlike with the spring
-//! alone. Nobody controls anything. The record is written as CSV and read like any user's record,
-//! by the same reader and the same search.
+//! A multisine drives the motor, and a slower multisine drives the joint. The torque covers the
+//! range that the reference needs. The angle of the joint is independent of the torque; with the
+//! spring alone, it would not be. The loop is open. The record is written as CSV, and read and
+//! identified like any user's record.
 
 use super::feed::{FeedForward, Surroundings};
 use super::trial::{MOST_UNDECLARED, RATE};
@@ -23,10 +23,10 @@ use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-/// Cut-off of the one filter \[Hz\]: above every tone, below the sensors' noise.
+/// Cut-off of the filter \[Hz\], above all frequencies of the multisines.
 const CUTOFF: f64 = 8.0;
 
-/// A mean and tones of random phase.
+/// A mean and sinusoids of random phase.
 struct Multisine {
     mean: f64,
     /// Amplitude, frequency \[Hz\], phase.
@@ -44,7 +44,7 @@ impl Multisine {
         }
     }
 
-    /// Faded in, so that nothing rings.
+    /// The signal at a time. A ramp at the start avoids transients.
     fn at(&self, t: f64) -> f64 {
         let fade = (t / 2.0).clamp(0.0, 1.0);
         let sum: f64 = self
@@ -61,14 +61,15 @@ impl Multisine {
 pub struct Record {
     /// The columns t, tau_i, tau_o, phi_p and phi_d, which `bowden identify` reads.
     pub csv: String,
-    /// The same with the command and the load, for drive, spring and cable.
+    /// The same record with the command and the load, from which drive, spring and cable are
+    /// identified.
     surroundings: String,
 }
 
 /// Runs the rig in open loop.
 ///
 /// # Errors
-/// A number of the rig that the core refuses, or a rig that diverges.
+/// The error of the core for an invalid parameter of the rig, or an error if the rig diverges.
 pub fn record(
     config: &RigConfig<f64>,
     undeclared: &[Term<f64>],
@@ -129,8 +130,8 @@ pub struct Identified {
     pub surroundings: Surroundings,
     /// The baseline model.
     pub declared: ModelFile,
-    /// The baseline model with the found terms: the best model on the selection segment among those
-    /// whose terms can all be fed forward.
+    /// The baseline model with the found terms. Among the models whose terms can all be fed
+    /// forward, this model has the smallest error on the selection segment.
     pub found: ModelFile,
     /// Rms error of the baseline model on the held-out part \[N·m\].
     pub before: f64,
@@ -138,8 +139,8 @@ pub struct Identified {
     pub after: f64,
     /// The found terms that are fed forward, in words.
     pub names: Vec<String>,
-    /// The found terms that are not fed forward: they read the sum, or raise the error on the
-    /// selection segment.
+    /// The found terms that are not fed forward, because they read the sum or increase the error on
+    /// the selection segment.
     pub left_out: Vec<String>,
     ranges: Vec<BenchRange<f64>>,
 }
@@ -224,7 +225,7 @@ impl Identified {
     }
 }
 
-/// What the bench has covered of one channel.
+/// The range of one channel in the bench record.
 fn range(source: Source, channel: &Channel) -> BenchRange<f64> {
     let over = |of: fn(&Motion<f64>) -> f64| {
         let values = channel.motion.iter().map(of);

@@ -32,23 +32,23 @@ pub struct Promise {
     pub refused: Option<String>,
     /// The assumptions that the user must check.
     pub assumptions: &'static [&'static str],
-    /// The largest term of the value, and its share, if it is reported.
+    /// The largest term of the bound and its fraction of all terms, if reported.
     pub mostly: Option<Mostly>,
 }
 
 /// The largest term of a bound.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Mostly {
-    /// What it is.
+    /// Name of the term.
     pub term: &'static str,
-    /// Its share of the sum of all terms.
+    /// Fraction of the sum of all terms.
     pub share: f64,
 }
 
-/// Greatest reference of the paper's experiment \[N·m\].
+/// Largest reference of the paper's experiment \[N·m\].
 const REFERENCE: f64 = 38.0;
 
-/// What is known of the rig as the plant (11), beta to within `spread`.
+/// The known ranges of the rig as the plant (11), with beta known to within `spread`.
 fn plant(rig: &RigConfig<f64>, spread: f64) -> Plant<f64, 2> {
     let alpha = rig.drive_gain * rig.b;
     let slope = rig.rho * (2.0 * rig.sigma).max(1.0) * rig.kappa_eta;
@@ -105,7 +105,7 @@ fn line(law: &str, kind: &'static str, certificate: Result<Certificate<f64>, Err
     }
 }
 
-/// Theorem 1 at its best, with the term that is to blame.
+/// Theorem 1 with the best choice of its free constants, and the dominant term.
 fn tightest(law: &str, found: Result<Tightest<f64>, Error>) -> Promise {
     let blamed = found.map(|found| found.dominant_term());
     Promise {
@@ -114,10 +114,10 @@ fn tightest(law: &str, found: Result<Tightest<f64>, Error>) -> Promise {
     }
 }
 
-/// What the machine-checked box assumes: a reference and a disturbance at rest.
+/// The assumptions of the machine-checked box: a constant reference and a constant disturbance.
 const RESTING: &str = "lag form at 1 kHz, constant |D| <= 8 N·m, g 20 %";
 
-/// The law of the proofs: the setup's gains in lag form, g = alpha·beta_hat in 0.8..=1.2.
+/// The law of the proofs: the setup's gains in first-order form, g = alpha·beta_hat in 0.8..=1.2.
 fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Error> {
     let lag = Form::FirstOrder {
         step: 1.0 / RATE,
@@ -139,7 +139,7 @@ fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Erro
     })
 }
 
-/// The certificates of the literal form.
+/// The certificates of the form as published.
 fn continuous(name: &str, law: &Adaptive<f64, 2>, known: &Plant<f64, 2>) -> Vec<Promise> {
     let peak = PeakContinuous::try_new(law, known);
     vec![
@@ -158,10 +158,11 @@ fn continuous(name: &str, law: &Adaptive<f64, 2>, known: &Plant<f64, 2>) -> Vec<
     ]
 }
 
-/// The laws of the setup: as they are, and with the bounds that firmware would set.
+/// The certificates of the laws of the setup, both without changes and with the bounds that
+/// firmware would set.
 ///
 /// # Errors
-/// A message if the core refuses the gains.
+/// A message if the core rejects the gains.
 pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
     let refused = |e: Error| format!("[adaptive]: {e}");
     let settings = setup.adaptive.paper_settings();
@@ -234,7 +235,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
 /// The certificate of each controller of `bowden compare`, by name.
 ///
 /// # Errors
-/// As [`all`].
+/// The same as [`all`].
 pub fn named(setup: &Setup) -> Result<BTreeMap<String, Promise>, String> {
     let lines = all(setup)?;
     let rms = lines.iter().find(|l| l.kind == "rms" && l.value.is_some());

@@ -6,13 +6,13 @@ use bowden::Error;
 use bowden_rig::RigConfig;
 use std::f64::consts::TAU;
 
-/// How long a command takes to become torque \[s\].
+/// Time from a command to its torque \[s\].
 #[must_use]
 pub fn latency(rig: &RigConfig<f64>, rate: f64) -> f64 {
     f64::from(rig.delay) / rate + rig.drive_lag
 }
 
-/// Time from a command to its effect in the measured torque \[s\]: the command is held over a
+/// Time from a command to its effect in the measured torque \[s\]. The command is held over a
 /// sample, and therefore acts half a sample later on average.
 #[must_use]
 pub fn shown(rig: &RigConfig<f64>, rate: f64) -> f64 {
@@ -21,12 +21,13 @@ pub fn shown(rig: &RigConfig<f64>, rate: f64) -> f64 {
 
 /// The plant from command to torque, without friction.
 ///
-/// The torque is `N(s)·phi_d`, from the joint's spring, damping and inertia. The motor works
-/// through the cable against this torque and against its own inertia and damping, so `P = gain/(1 +
-/// (th2·s² + th1·s)/N(s))`. N is approximated by its stiffness, in series with the cable's.
+/// The torque is `N(s)·phi_d`, from the joint's spring, damping and inertia. The motor acts through
+/// the cable against this torque, and against its own inertia and damping. Therefore
+/// `P = gain/(1 + (th2·s² + th1·s)/N(s))`. N is approximated by its stiffness, in series with the
+/// stiffness of the cable.
 ///
 /// # Errors
-/// A number that the core refuses.
+/// The error of the core for an invalid parameter.
 pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
     let stiffness = (rig.cable_stiffness.recip() + rig.load_stiffness.recip()).recip();
     NominalPlant::of_mechanics(
@@ -37,7 +38,7 @@ pub fn nominal(rig: &RigConfig<f64>) -> Result<NominalPlant<f64>, Error> {
     )
 }
 
-/// Refuses a number by its name in the file.
+/// Rejects a value that is not positive and finite.
 ///
 /// # Errors
 /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name.
@@ -52,7 +53,7 @@ pub fn above_zero(value: f64, name: &'static str) -> Result<(), Error> {
 /// The observer of these gains at a rate \[Hz\]; the nominal plant defaults to the rig's values.
 ///
 /// # Errors
-/// A number that the core refuses.
+/// The error of the core for an invalid parameter.
 pub fn observer(
     gains: &ObserverGains,
     rig: &RigConfig<f64>,

@@ -1,4 +1,4 @@
-//! Decimals rounded up or down; `format!` rounds to the nearest one.
+//! Decimals that are rounded up or down. `format!` rounds to the nearest decimal.
 
 /// The side on which a decimal may differ from its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +23,8 @@ pub fn places(x: f64, least: usize) -> usize {
     needed.max(least)
 }
 
-/// The number with at most `digits` digits, at least one; [`f64::floor`] or [`f64::ceil`] selects
-/// the side. A number that is not above zero stays unchanged.
+/// The number with at most `digits` digits, but at least one. [`f64::floor`] or [`f64::ceil`]
+/// selects the side. A number that is not positive stays unchanged.
 #[must_use]
 pub fn digits(x: f64, digits: u8, round: fn(f64) -> f64) -> f64 {
     if !(x.is_finite() && x > 0.0) {
@@ -44,7 +44,7 @@ pub fn above(x: f64) -> String {
     fixed(x, places(x, 4), Towards::Above)
 }
 
-/// With `places` decimals.
+/// The number with `places` decimals.
 #[must_use]
 pub fn fixed(x: f64, places: usize, to: Towards) -> String {
     if !x.is_finite() {
@@ -54,7 +54,7 @@ pub fn fixed(x: f64, places: usize, to: Towards) -> String {
     signed(x, cut)
 }
 
-/// In the form `1.5e-3`, with `places` decimals.
+/// The number in the form `1.5e-3`, with `places` decimals.
 #[must_use]
 pub fn scientific(x: f64, places: usize, to: Towards) -> String {
     if !x.is_finite() {
@@ -83,8 +83,8 @@ fn signed(x: f64, text: String) -> String {
     }
 }
 
-/// A decimal cut after `places`, with its last place increased by one if `up` is set and the rest
-/// is not zero; and whether this added a digit.
+/// A decimal that is cut after `places`, and whether rounding added a digit. The last place is
+/// increased by one if `up` is set and the rest is not zero.
 fn cut(exact: &str, places: usize, up: bool) -> (String, bool) {
     let (whole, behind) = exact.split_once('.').unwrap_or((exact, ""));
     let (kept, rest) = behind.split_at(places.min(behind.len()));

@@ -1,4 +1,4 @@
-//! The results of a comparison as plain data; a view computes no numbers.
+//! The results of a comparison as plain data.
 
 use super::certificates::named;
 use super::found::outcome;
@@ -38,31 +38,31 @@ pub use bowden_bound::Named;
 /// Gain, leakage and bounds of one estimate of the adaptive law.
 pub type Estimate = bowden::control::Estimator<f64>;
 
-/// Noise with which the gain of a found effect can be seen \[N·m rms\].
+/// Noise at which the benefit of a found effect is visible \[N·m rms\].
 const QUIET: f64 = 0.02;
 
-/// The answer.
+/// The result of a comparison.
 #[derive(Debug, Clone)]
 pub struct Compared {
     /// The conditions of the trials.
     pub heading: Heading,
-    /// What came out.
+    /// The results of the trials.
     pub results: Results,
 }
 
-/// What came out.
+/// The results of the trials.
 #[derive(Debug, Clone)]
 pub enum Results {
-    /// The controllers of the paper, and those that the comparison needs to be fair.
+    /// The controllers of the paper, and further controllers for a fair comparison.
     Lineup(Lineup),
-    /// An undeclared effect, identified and fed forward.
+    /// An undeclared effect that was identified and fed forward.
     Found(Found),
 }
 
 /// The controllers on the rig without an undeclared effect.
 #[derive(Debug, Clone)]
 pub struct Lineup {
-    /// One line a controller.
+    /// One line for each controller.
     pub lines: Vec<Line>,
     /// The certificates of the controllers, by name.
     pub certificates: BTreeMap<String, Promise>,
@@ -73,7 +73,7 @@ pub struct Lineup {
 pub struct Found {
     /// The effect.
     pub effect: Undeclared,
-    /// One outcome a seed.
+    /// One outcome for each seed.
     pub outcomes: Vec<Outcome>,
     /// The number of seeds on which each controller improved.
     pub over_seeds: Vec<OverSeeds>,
@@ -95,7 +95,7 @@ pub struct OverSeeds {
 /// Runs the trials.
 ///
 /// # Errors
-/// A message if an option is out of range, the setup cannot be read, a law is refused, or no model
+/// A message if an option is out of range, the setup cannot be read, a law is rejected, or no model
 /// is found.
 pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     question.check()?;
@@ -173,9 +173,9 @@ pub fn compare(question: &Question<'_>) -> Result<Compared, String> {
     Ok(Compared { heading, results })
 }
 
-/// The same comparison with the conduit moved instead of at rest, or at rest instead of moved: the
-/// paper has each law in both (Figures 7 and 8). `None` with an effect, and with a setup that moves
-/// the conduit itself.
+/// The same comparison in the other configuration of the conduit (fixed or moving). The paper tests
+/// each law in both configurations (Figures 7 and 8). `None` with an undeclared effect, or if the
+/// setup itself moves the conduit.
 ///
 /// # Errors
 /// The same as [`compare`].
@@ -194,7 +194,7 @@ pub fn other_configuration(
     Ok((other.heading.varying == varying).then_some(other))
 }
 
-/// What the rig has of the user's own model.
+/// The parts of the user's own model that the rig uses.
 struct Own {
     effects: Vec<Term<f64>>,
     reference: Option<[f64; 2]>,
@@ -232,8 +232,8 @@ fn no_model_is_refused(question: &Question<'_>, path: &Path) -> Result<(), Strin
     }
 }
 
-/// The setup, the gains of `bowden design` where there are some, and whether `setup` is a model
-/// by itself.
+/// The setup, the gains of `bowden design` if there are any, and whether `setup` is a model by
+/// itself.
 fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), String> {
     let Some(path) = question.gains else {
         let own = setup(question, question.setup)?;
@@ -289,7 +289,7 @@ pub struct Certified {
 /// The certificates of a setup.
 ///
 /// # Errors
-/// A message if the setup cannot be read or the core refuses its gains.
+/// A message if the setup cannot be read or the core rejects its gains.
 pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
     if let Some(path) = setup {
         let text = std::fs::read_to_string(path).unwrap_or_default();
@@ -408,7 +408,7 @@ impl Compared {
         }
     }
 
-    /// The controllers whose first trial was traced. With an undeclared effect, their names state
+    /// The controllers whose first trial was traced. With an undeclared effect, their names include
     /// the feed-forward.
     #[must_use]
     pub fn traced(&self) -> Vec<Line> {
@@ -432,7 +432,7 @@ impl Compared {
     }
 }
 
-/// Who follows the reference best, and how far off a PI is.
+/// The controller with the smallest error, and the error of the PI.
 fn best(lines: &[Line]) -> String {
     let good = lines
         .iter()

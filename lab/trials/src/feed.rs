@@ -1,9 +1,9 @@
 //! The identified model along the reference, as a feed-forward without noise.
 //!
-//! The motions that the effects read are derived from the reference, not measured: the joint's from
-//! its identified spring, the proximal pulley's from the stretch of the cable under the torque that
-//! the declared transmission needs. No measured signal is used, so neither noise nor an unstable
-//! zero of an effect can make the loop diverge.
+//! The motions that the effects read are computed from the reference. The motion of the joint
+//! follows from its identified spring. The motion of the proximal pulley follows from the stretch
+//! of the cable under the torque that the baseline transmission needs. No measured signal is used,
+//! so neither noise nor an unstable zero of an effect can make the loop diverge.
 
 use bowden::control::{BenchRange, Changed, Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
@@ -12,10 +12,10 @@ use bowden::signal::{Derivative, DerivativeState};
 use bowden_lab::export::MOST_TERMS;
 use bowden_rig::Reference;
 
-/// What the drive and the load are like, from a bench record or from a data sheet.
+/// Parameters of the drive and the load, from a bench record or from nominal values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
-    /// Motor torque of one unit of command \[N·m/unit\].
+    /// Motor torque per command unit \[N·m/unit\].
     pub drive_gain: f64,
     /// Viscous friction of motor and proximal pulley \[N·m·s/rad\].
     pub motor_damping: f64,
@@ -31,7 +31,7 @@ pub struct Surroundings {
     pub latency: f64,
 }
 
-/// What a step gives.
+/// Output of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fed {
     /// The command of the model \[units\].
@@ -40,7 +40,7 @@ pub struct Fed {
     pub effects: f64,
 }
 
-/// Rates of the torque that the model needs are smoothed over this time \[s\].
+/// Time constant that smooths the rates of the torque \[s\].
 const SMOOTHING: f64 = 0.005;
 
 /// One pass: the effects of one motion, then the inverse of the transmission.
@@ -82,14 +82,15 @@ impl Pass {
 #[derive(Debug, Clone)]
 pub struct FeedForward {
     surroundings: Surroundings,
-    /// Without effects, then with those that the motion of the pass before gives.
+    /// The first pass has no effects. Each further pass uses the effects of the motion from the
+    /// previous pass.
     passes: Vec<Pass>,
     channels: Vec<Channel>,
     changed: Changed<f64, MOST_TERMS>,
     changed_words: String,
 }
 
-/// Which pulley a channel of the model is.
+/// The pulley that a channel of the model measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Channel {
     Proximal,
@@ -161,19 +162,19 @@ impl FeedForward {
         })
     }
 
-    /// The differences between the feed-forward and the given model.
+    /// The differences between the model of the feed-forward and the given model.
     #[must_use]
     pub fn changed(&self) -> &Changed<f64, MOST_TERMS> {
         &self.changed
     }
 
-    /// The same in words, if there is a difference.
+    /// These differences in words, if there are any.
     #[must_use]
     pub fn changed_words(&self) -> Option<&str> {
         (!self.changed_words.is_empty()).then_some(&self.changed_words)
     }
 
-    /// One sample, for the reference at the time when the command becomes torque.
+    /// Computes one sample for the reference at the time when the command becomes torque.
     pub fn step(&mut self, reference: &Reference<f64>, t: f64, dt: f64) -> Fed {
         let s = &self.surroundings;
         // Held over one sample, the command acts half of one later in the mean.

@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 /// Rate of the slow loops \[Hz\].
 pub const SLOW: f64 = 250.0;
 
-/// Share of the paper's gains that the quiet loops have.
+/// Gains of the quiet loops, as a fraction of the paper's gains.
 pub const QUIET: f64 = 0.2;
 
 /// One controller with the baseline model and with the found terms.
@@ -22,17 +22,17 @@ pub const QUIET: f64 = 0.2;
 pub struct Pair {
     /// Name of the controller, and the use of the model.
     pub controller: String,
-    /// Without any model.
+    /// The result without any model.
     pub plain: Line,
-    /// With the baseline model, fitted to the bench record.
+    /// The result with the baseline model, which is fitted to the bench record.
     pub declared: Line,
-    /// With the found terms in addition.
+    /// The result with the found terms in addition.
     pub found: Line,
 }
 
 impl Pair {
-    /// Compares the error with the found terms with the error of the baseline model; divergence is
-    /// worst.
+    /// Compares the error with the found terms and the error with the baseline model. A loop that
+    /// diverges counts as the worst.
     #[must_use]
     pub fn against_before(&self) -> Ordering {
         let error = |line: &Line| line.mean_error().unwrap_or(f64::INFINITY);
@@ -46,7 +46,7 @@ impl Pair {
     }
 }
 
-/// One seed: its own bench record, its own identification, its own trials.
+/// One seed, with its own bench record, identification and trials.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The seed.
@@ -59,12 +59,12 @@ pub struct Outcome {
     pub pairs: Vec<Pair>,
 }
 
-/// A kind of loop, with the way in which the model enters.
+/// A kind of loop, and its use of the model.
 struct Kind {
     name: &'static str,
     rate: f64,
     law: fn(&Setup, &Laws, f64) -> Result<Law, bowden::Error>,
-    /// As third regressor instead of as feed-forward.
+    /// Whether the model is the third regressor instead of a feed-forward.
     regressor: bool,
 }
 
@@ -78,7 +78,8 @@ fn quiet(pid: &Pid<f64>) -> Result<Law, bowden::Error> {
     Pid::try_new(quiet).map(Law::Pid)
 }
 
-/// A tenth of the gain, a smooth sign that starts at nothing, a slow rate of the error.
+/// The adaptive law with a tenth of the gain k, an initial delta_hat of zero, and ten times the
+/// epsilon and the filter time.
 fn quiet_adaptive(gains: &AdaptiveGains) -> AdaptiveGains {
     AdaptiveGains {
         k: 0.5 * QUIET * gains.k,

@@ -1,4 +1,5 @@
-//! Gains as a file, schema `bowden.gains/1`: what `bowden design` writes and `compare` reads.
+//! The gains file, schema `bowden.gains/1`, which `bowden design` writes and `bowden compare`
+//! reads.
 //!
 //! The file has one table for each controller, with the names of the core's fields, so that
 //! firmware with the feature `serde` can read a table into `PidSettings` or `AdaptiveSettings`.
@@ -22,7 +23,7 @@ pub struct GainsFile {
     /// The PID, if the derivative helps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pid: Option<PidSettings<f64>>,
-    /// The adaptive law in lag form without regressors, if gains are admissible.
+    /// The adaptive law in first-order form without regressors, if gains are admissible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<AdaptiveSettings<f64, 0>>,
     /// The ranges of the plant of the adaptive law that `bowden certify` assumes, if they are
@@ -49,7 +50,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// The first invalid number: its key, and the allowed values.
+    /// The key of the first invalid number, and the allowed values.
     fn refused(&self) -> Option<(&'static str, String)> {
         let [low, high] = self.alpha;
         if !(low.is_finite() && high.is_finite() && 0.0 < low && low <= high) {
@@ -78,9 +79,9 @@ pub struct DesignedFor {
     pub by: String,
     /// Name of the model's file, without folders.
     pub model: String,
-    /// Samples a second \[Hz\].
+    /// Sampling rate \[Hz\].
     pub rate: f64,
-    /// From the command to its measured torque \[s\].
+    /// Delay from a command to its effect in the measured torque \[s\].
     pub delay: f64,
     /// Torque at the proximal pulley per command unit \[N·m/command unit\].
     pub drive_gain: f64,
@@ -139,10 +140,10 @@ impl GainsFile {
         Ok(gains)
     }
 
-    /// As TOML.
+    /// The file as TOML.
     ///
     /// # Errors
-    /// If a number cannot be written.
+    /// The error of the serialiser if a number cannot be written.
     pub fn toml(&self) -> Result<String, toml::ser::Error> {
         let d = &self.design;
         Ok(format!(

@@ -51,8 +51,8 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// The user's own conditions except for the model: gains, reference, parameters of the rig. A
-    /// sentence each.
+    /// One sentence on each condition that the user has changed, except for the model: gains,
+    /// reference, parameters of the rig.
     #[must_use]
     pub fn own(&self) -> Vec<String> {
         let mut all = Vec::new();
@@ -140,7 +140,7 @@ const PAPER: [(&str, [f64; 2], [f64; 2]); 4] = [
     ("adaptive", [0.3027, 0.0081], [0.3195, 0.0120]),
 ];
 
-/// Rms of the reference's rate over a part of a trial \[s\], times the lag of the sensor \[s\].
+/// Rms of the rate of the reference over a part of a trial, times the lag of the sensor \[s\].
 pub(super) fn lag_error(reference: &Reference<f64>, lag: f64, (from, to): (f64, f64)) -> f64 {
     let steps = 1000.0 * (to - from).max(0.0);
     let times = (0..steps as usize).map(|k| from + k as f64 * 1e-3);
@@ -169,7 +169,8 @@ pub(super) fn is_paper(setup: &Setup) -> bool {
         && setup.adaptive == paper.adaptive
 }
 
-/// The drive gain of the gains that run, where the rig is given none.
+/// Sets the drive gain to that of the gains file if the options of the rig do not specify a drive
+/// gain.
 pub(super) fn with_drive_gain(rig: RigChanges, gains: Option<&GainsFile>) -> RigChanges {
     let designed = gains.map(|gains| gains.design.drive_gain);
     RigChanges {

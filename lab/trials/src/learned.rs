@@ -1,4 +1,5 @@
-//! Learning together with a law and the inverse of the nominal plant along the reference.
+//! Iterative learning in combination with a control law and the inverse of the nominal plant along
+//! the reference.
 
 use super::data_sheet::{above_zero, nominal, shown};
 use super::setup::IterativeLearningGains;
@@ -9,14 +10,14 @@ use bowden::effect::Motion;
 use bowden::Error;
 use bowden_rig::RigConfig;
 
-/// Learning over the cycle of a reference, with its feed-forward.
+/// Iterative learning over the cycle of a reference, with its feed-forward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Learned {
-    /// Gain, lead, filter and limit of the learning.
+    /// Gain, lead, filter and limit of iterative learning.
     pub learning: IterativeLearning<f64>,
-    /// Cells of a cycle.
+    /// Number of cells in a cycle.
     pub cells: usize,
-    /// The cycle \[s\].
+    /// Duration of a cycle \[s\].
     pub period: f64,
     /// The plant whose inverse is fed forward.
     pub plant: NominalPlant<f64>,
@@ -25,10 +26,10 @@ pub struct Learned {
 }
 
 impl Learned {
-    /// Over a cycle of `period` \[s\], on a rig at a rate \[Hz\].
+    /// Iterative learning over a cycle of `period` \[s\], on a rig at a rate \[Hz\].
     ///
     /// # Errors
-    /// A number that the core refuses.
+    /// The error of the core for an invalid parameter.
     pub fn new(
         gains: &IterativeLearningGains,
         period: f64,
@@ -69,7 +70,7 @@ impl Learned {
     }
 }
 
-/// Learning while it runs.
+/// Iterative learning with its running state.
 pub(crate) struct Running {
     learned: Learned,
     state: IterativeLearningState<f64, Vec<f64>>,
@@ -77,7 +78,8 @@ pub(crate) struct Running {
 
 impl Running {
     /// # Errors
-    /// What the core refuses of the cells, which [`Learned::new`] has refused before.
+    /// The error of the core for an invalid number of cells. [`Learned::new`] has already checked
+    /// this number.
     pub(crate) fn new(learned: &Learned) -> Result<Self, Error> {
         Ok(Self {
             learned: *learned,
@@ -85,7 +87,7 @@ impl Running {
         })
     }
 
-    /// What is added to the next command \[units\] at time `t` \[s\].
+    /// The value to add to the next command \[units\] at time `t` \[s\].
     pub(crate) fn step(
         &mut self,
         t: f64,

@@ -1,24 +1,24 @@
-//! The share of a trial in which the command is at a limit: there the limits determine the loop,
-//! not the gains.
+//! The fraction of a trial in which the command is at a limit. The limits, and not the gains, then
+//! determine the behaviour of the loop.
 
 use bowden::control::Limits;
 use serde::Serialize;
 
-/// Share of the samples from which a limit is reported. A choice: a command may reach a limit now
-/// and then.
+/// Fraction of the samples from which a limit is reported. A command may reach a limit
+/// occasionally.
 pub const TOLD: f64 = 0.2;
 
-/// Shares of the samples of the steady part.
+/// Fractions of the samples of the steady part.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct AtLimit {
-    /// At an end of the range.
+    /// Fraction at an end of the range.
     pub range: f64,
-    /// At the slew-rate limit.
+    /// Fraction at the slew-rate limit.
     pub slew: f64,
 }
 
 impl AtLimit {
-    /// In words, if one of the two exceeds [`TOLD`].
+    /// The fractions in words, if one of them exceeds [`TOLD`].
     #[must_use]
     pub fn words(&self) -> Option<String> {
         let told = |share: f64, limit: &str| {
@@ -51,7 +51,7 @@ impl Counted {
         }
     }
 
-    /// One step of the law, from the command before to the one that it gave.
+    /// Adds one step of the control law, from the previous command to the new one.
     pub(super) fn add(&mut self, before: f64, command: f64, dt: f64) {
         let Self { limits, .. } = *self;
         self.count += 1.0;

@@ -1,5 +1,5 @@
-//! The controllers of a comparison: the four of the paper, and those that the comparison needs to
-//! be fair.
+//! The controllers of a comparison: the four controllers of the paper, and further controllers for
+//! a fair comparison.
 
 use super::data_sheet::{latency, observer};
 use super::feed::{FeedForward, Surroundings};
@@ -15,7 +15,8 @@ use bowden::transmission::Transmission;
 use bowden_lab::export::MOST_TERMS;
 use bowden_rig::RigConfig;
 
-/// The cycle that is learned over, that of [`Reference::gait`](bowden_rig::Reference::gait) \[s\].
+/// The cycle of [`Reference::gait`](bowden_rig::Reference::gait), over which iterative learning
+/// works \[s\].
 pub const GAIT: f64 = 1.0;
 
 /// All laws of a setup, checked.
@@ -27,15 +28,15 @@ pub struct Laws {
     pub pid: Pid<f64>,
     /// PIV (16).
     pub piv: Pid<f64>,
-    /// PI with the adaptive law's integral gain.
+    /// PI with the integral gain of the adaptive law.
     pub matched_pi: Pid<f64>,
     /// The PI with the observer.
     pub observed_pi: Pid<f64>,
     /// The observer.
     pub observer: DisturbanceObserver<f64>,
-    /// The PI with the learning.
+    /// The PI with iterative learning.
     pub learning_pi: Pid<f64>,
-    /// Learning over the gait's cycle.
+    /// Iterative learning over the cycle of the gait.
     pub learning: Learned,
     /// The adaptive law.
     pub adaptive: ThreeRegressors,
@@ -45,7 +46,7 @@ impl Laws {
     /// Checks every law of the setup.
     ///
     /// # Errors
-    /// The table of the refused law, and the error of the core.
+    /// The table of the rejected law, and the error of the core.
     pub fn new(setup: &Setup) -> Result<Self, (&'static str, bowden::Error)> {
         let pid = |name, settings| Pid::try_new(settings).map_err(|e| (name, e));
         let paper = Pid::<f64>::paper_pi();
@@ -78,7 +79,7 @@ impl Laws {
 /// The adaptive law with a prior for the third regressor; zero omits it.
 ///
 /// # Errors
-/// A gain that the core refuses.
+/// The error of the core for an invalid gain.
 pub fn adaptive(gains: &AdaptiveGains, prior: f64) -> Result<ThreeRegressors, bowden::Error> {
     Adaptive::try_new(gains.settings(prior))
 }
@@ -118,11 +119,11 @@ pub fn knows(controller: &str) -> Option<&'static str> {
     }
 }
 
-/// The eight controllers of `bowden compare`, in its order, and a ninth with learning if the
-/// reference repeats.
+/// The eight controllers of `bowden compare`, in the order of its output, and a ninth with
+/// iterative learning if the reference repeats.
 ///
 /// # Errors
-/// A message if a law is refused or the model cannot be inverted.
+/// A message if a law is rejected or the model cannot be inverted.
 pub fn lineup(setup: &Setup, repeats: bool) -> Result<Vec<Controller>, String> {
     let laws = Laws::new(setup).map_err(|(what, e)| format!("[{what}]: {e}"))?;
     let plain = |name: &str, law: Law| Controller::alone(name, law, RATE);
@@ -152,7 +153,7 @@ pub fn lineup(setup: &Setup, repeats: bool) -> Result<Vec<Controller>, String> {
     Ok(all)
 }
 
-/// The adaptive law whose estimates stay: beta_hat at the drive's own gain.
+/// The adaptive law with constant estimates. beta_hat corresponds to the drive gain.
 fn frozen(setup: &Setup) -> Result<ThreeRegressors, String> {
     let settings = setup.adaptive.settings(0.0);
     let beta = match settings.beta.initial {

@@ -1,10 +1,10 @@
-//! A disturbance observer together with a law and the inverse of the nominal plant along the
-//! reference.
+//! A disturbance observer in combination with a control law and the inverse of the nominal plant
+//! along the reference.
 
 use bowden::control::{DisturbanceObserver, ObserverInput, ObserverState};
 use bowden::effect::Motion;
 
-/// An observer while it runs.
+/// An observer with its running state.
 pub(crate) struct Observing<'a> {
     observer: &'a DisturbanceObserver<f64>,
     state: ObserverState<f64>,

@@ -25,13 +25,13 @@ pub struct RigChanges {
     pub joint_inertia: Option<f64>,
     /// Damping of the distal pulley \[N·m·s/rad\].
     pub joint_damping: Option<f64>,
-    /// Springs that the joint works against \[N·m/rad\].
+    /// Stiffness of the springs that load the joint \[N·m/rad\].
     pub load_stiffness: Option<f64>,
     /// Time constant of the current loop \[s\].
     pub drive_lag: Option<f64>,
     /// Time constant of the torque sensors \[s\].
     pub sensor_lag: Option<f64>,
-    /// Samples between a command and the drive.
+    /// Number of samples between a command and its effect on the drive.
     pub delay: Option<u8>,
 }
 
@@ -68,10 +68,10 @@ impl RigChanges {
         Ok(())
     }
 
-    /// The rig with these numbers; a sub-step that is too long for them becomes shorter.
+    /// The rig with these parameters. A sub-step that is too long for them is shortened.
     ///
     /// # Errors
-    /// A message with the number that the rig refuses.
+    /// A message with the invalid parameter.
     pub fn apply(&self, rig: RigConfig<f64>) -> Result<RigConfig<f64>, String> {
         let mut rig = RigConfig {
             drive_gain: self.drive_gain.unwrap_or(rig.drive_gain),
@@ -124,7 +124,7 @@ pub fn with_transmission(rig: &RigConfig<f64>, cable: &Transmission<f64>) -> Rig
 /// The transmission of a model file.
 ///
 /// # Errors
-/// A message if there is none.
+/// A message if the file has no transmission.
 pub fn transmission(file: &ModelFile) -> Result<Transmission<f64>, String> {
     let model = file.model::<MOST_TERMS>()?;
     let cable = model.transmission().copied();
@@ -164,11 +164,11 @@ pub fn effects(file: &ModelFile) -> Result<Vec<Term<f64>>, String> {
     }
 }
 
-/// Where the reference moves, over four fifths of what the record of a model has covered \[N·m\];
-/// `None` where the file does not say.
+/// Range of the reference: four fifths of the range of outputs in the record of the model \[N·m\];
+/// `None` if the file does not specify this range.
 ///
 /// # Errors
-/// A message if the record reaches no output in both directions.
+/// A message if the record does not reach any output in both directions.
 pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[f64; 2]>, String> {
     let ranges = file.about.as_ref().map(|about| &about.ranges);
     let Some(seen) = ranges.and_then(|ranges| ranges.get("input")) else {
@@ -189,7 +189,7 @@ pub fn reference(file: &ModelFile, cable: &Transmission<f64>) -> Result<Option<[
 /// The controllers of a gains file, and the PI with the inverse of the model as a feed-forward.
 ///
 /// # Errors
-/// A message if a law is refused or the model cannot be inverted.
+/// A message if a law is rejected or the model cannot be inverted.
 pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, String> {
     let rate = gains.design.rate;
     let plain = Controller::alone;
@@ -217,7 +217,7 @@ pub fn designed(setup: &Setup, gains: &GainsFile) -> Result<Vec<Controller>, Str
     Ok(all)
 }
 
-/// The law without regressors as one over three that it does not use.
+/// The law without regressors as a law with three unused regressors.
 fn padded(own: &AdaptiveSettings<f64, 0>) -> AdaptiveSettings<f64, 3> {
     AdaptiveSettings {
         form: own.form,

@@ -1,19 +1,20 @@
-//! What a comparison is asked.
+//! The input of a comparison.
 
 use super::own_rig::RigChanges;
 use super::setup_file::text_of_disk;
 use std::path::Path;
 
-/// What is asked.
+/// The input of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question<'a> {
-    /// A model for the feed-forward, whose transmission the rig also has with `gains` or `rig`; or
-    /// gains, rig and model in one file. Default: the paper's gains and the reference rig.
+    /// A model for the feed-forward, or one file with gains, rig and model. With `gains` or `rig`,
+    /// the rig also has the transmission of the model. Default: the paper's gains and the reference
+    /// rig.
     pub setup: Option<&'a Path>,
     /// Gains from `bowden design`, which need the model in `setup`; or a file in the form of
     /// `setup`.
     pub gains: Option<&'a Path>,
-    /// Other numbers of the rig. The drive gain defaults to that of `gains`, if they are from
+    /// Changed parameters of the rig. The drive gain defaults to that of `gains`, if they are from
     /// `bowden design`.
     pub rig: RigChanges,
     /// White noise of the torque sensors \[N·m rms\]; default: that of the setup.
@@ -30,7 +31,7 @@ pub struct Question<'a> {
     pub effect: Option<&'a str>,
     /// Whether to return the signals of the first trial.
     pub traced: bool,
-    /// Files in memory, by their paths; every other file is read from the disk.
+    /// Files in memory, by their paths. All other files are read from the disk.
     pub in_memory: &'a [(&'a Path, &'a str)],
 }
 

@@ -1,6 +1,6 @@
 //! Gains, model and rig in one TOML form.
 //!
-//! Every entry is optional; the defaults are those of the paper or of the reference rig. An unknown
+//! Every entry is optional. The defaults are those of the paper or of the reference rig. An unknown
 //! key is an error with line and column.
 //!
 //! ```toml
@@ -64,8 +64,8 @@
 //! n = 3.871
 //! ```
 //!
-//! A file that contains only such a model is accepted too. Together with gains, `bowden compare
-//! --model` gives the rig the transmission and the effects of this model
+//! A file that contains only such a model is accepted too. Together with gains,
+//! `bowden compare --model` gives the rig the transmission and the effects of this model
 //! ([`own_rig`](super::own_rig)).
 
 use bowden::control::{AdaptiveSettings, DerivativeSource, Estimator, Form, Leakage, PidSettings};
@@ -89,7 +89,7 @@ pub struct Setup {
     pub matched_pi: PidGains,
     /// The PI with a disturbance observer.
     pub observer: ObserverGains,
-    /// The PI with learning, if the reference repeats.
+    /// The PI with iterative learning, if the reference repeats.
     pub learning: IterativeLearningGains,
     /// The adaptive law.
     pub adaptive: AdaptiveGains,
@@ -105,14 +105,14 @@ pub struct PidGains {
     pub k_p: Option<f64>,
     /// Integral gain \[units/(N·m·s)\].
     pub k_i: Option<f64>,
-    /// Gain of the damping \[units·s/(N·m)\], PIV \[units·s/rad\].
+    /// Derivative gain \[units·s/(N·m)\]; velocity gain of PIV \[units·s/rad\].
     pub k_d: Option<f64>,
-    /// Time constant of the derivative's filter \[s\].
+    /// Time constant of the derivative filter \[s\].
     pub derivative_time: Option<f64>,
 }
 
 impl PidGains {
-    /// Over the paper's settings.
+    /// The paper's settings with these gains.
     #[must_use]
     pub fn over(&self, paper: &PidSettings<f64>) -> PidSettings<f64> {
         PidSettings {
@@ -124,7 +124,7 @@ impl PidGains {
         }
     }
 
-    /// Over the paper's PIV, whose damping reads the joint's velocity.
+    /// The paper's PIV, whose damping term reads the joint velocity, with these gains.
     #[must_use]
     pub fn over_piv(&self, paper: &PidSettings<f64>) -> PidSettings<f64> {
         PidSettings {
@@ -142,20 +142,20 @@ pub struct ObserverGains {
     pub k_p: f64,
     /// Integral gain \[units/(N·m·s)\].
     pub k_i: f64,
-    /// Corner of Q \[Hz\].
+    /// Corner frequency of Q \[Hz\].
     pub frequency: f64,
     /// Largest magnitude of the observer's estimate \[units\].
     pub limit: f64,
     /// Gain of the nominal plant \[N·m/unit\].
     pub gain: Option<f64>,
-    /// wn \[rad/s\].
+    /// wn of the nominal plant \[rad/s\].
     pub natural_frequency: Option<f64>,
-    /// zeta.
+    /// zeta of the nominal plant.
     pub damping_ratio: Option<f64>,
 }
 
 impl Default for ObserverGains {
-    /// A PI of two fifths of the paper's proportional gain, which the observer leaves enough.
+    /// A PI with two fifths of the paper's proportional gain.
     fn default() -> Self {
         Self {
             k_p: 12.0,
@@ -169,7 +169,7 @@ impl Default for ObserverGains {
     }
 }
 
-/// A PI with learning over the cycle of a reference that repeats.
+/// A PI with iterative learning over the cycle of a reference that repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct IterativeLearningGains {
@@ -177,13 +177,13 @@ pub struct IterativeLearningGains {
     pub k_p: f64,
     /// Integral gain \[units/(N·m·s)\].
     pub k_i: f64,
-    /// Gain of the learning \[units/(N·m)\].
+    /// Learning gain \[units/(N·m)\].
     pub gain: f64,
     /// Time from a command to its effect \[s\].
     pub lead: f64,
-    /// Corner of Q \[Hz\].
+    /// Corner frequency of Q \[Hz\].
     pub frequency: f64,
-    /// Cells of a cycle.
+    /// Number of cells in a cycle.
     pub cells: usize,
     /// Largest magnitude of the learned values \[units\].
     pub limit: f64,
@@ -224,13 +224,13 @@ pub struct AdaptiveGains {
     pub sigma_alpha: f64,
     /// Leakage of theta_hat \[1/s\].
     pub sigma_i: f64,
-    /// Width of the smooth sign \[N·m\].
+    /// Width of the smoothed sign function \[N·m\].
     pub epsilon: f64,
-    /// Filter of the error's rate \[s\].
+    /// Time constant of the filter of the error rate \[s\].
     pub derivative_time: f64,
-    /// First beta_hat \[units/(N·m)\].
+    /// Initial beta_hat \[units/(N·m)\].
     pub beta: f64,
-    /// First delta_hat \[N·m\].
+    /// Initial delta_hat \[N·m\].
     pub delta: f64,
 }
 
@@ -255,7 +255,7 @@ impl Default for AdaptiveGains {
 }
 
 impl AdaptiveGains {
-    /// The settings of the core over velocity and acceleration, (19)-(26).
+    /// The settings of the core with velocity and acceleration as regressors, (19)-(26).
     #[must_use]
     pub fn paper_settings(&self) -> AdaptiveSettings<f64, 2> {
         let AdaptiveSettings {

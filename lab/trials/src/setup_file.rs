@@ -44,7 +44,7 @@ impl Setup {
         Ok(setup)
     }
 
-    /// What no type can say.
+    /// Checks the conditions that the types do not express.
     fn check(&self, label: &str) -> Result<(), String> {
         if let Some(model) = &self.model {
             if model.schema != "bowden.model/1" {

@@ -35,15 +35,15 @@ pub struct Line {
     pub rmse_true: Spread,
     /// Rms of the measured error, steady part \[N·m\].
     pub rmse_measured: Spread,
-    /// Mean measured error as a share of the largest reference.
+    /// Mean measured error as a fraction of the largest reference.
     pub share: f64,
     /// Largest true error of any trial, steady part \[N·m\].
     pub peak: f64,
-    /// Total variation of the command, mean \[units/s\].
+    /// Total variation of the command per second, mean \[units/s\].
     pub effort: f64,
     /// Reversals of the command, mean \[1/s\].
     pub reversals: f64,
-    /// Share of the steady part in which the command is at a limit, mean.
+    /// Fraction of the steady part in which the command is at a limit, mean.
     pub at_limit: AtLimit,
     /// Rms of the true error in the first 12 s \[N·m\].
     pub transient: Spread,
@@ -53,7 +53,7 @@ pub struct Line {
     pub command: f64,
     /// Number of trials that diverged.
     pub diverged: usize,
-    /// Time at which the first of them diverged \[s\]; `None` if none did.
+    /// Time at which the first of these trials diverged \[s\]; `None` if none diverged.
     pub ran_away: Option<f64>,
     /// The trial of the first seed, with its trace if requested.
     pub first: Trial,
@@ -69,10 +69,10 @@ impl Line {
     }
 }
 
-/// Runs every controller on every seed, on all cores; the order is that of the list.
+/// Runs every controller with every seed, on all cores. The results are in the order of the list.
 ///
 /// # Errors
-/// A number of the rig that the core refuses.
+/// The error of the core for an invalid parameter of the rig.
 pub fn run_all(
     controllers: &[Controller],
     conditions: &Conditions,
@@ -133,7 +133,8 @@ pub fn smallest_error(lines: &[Line], among: impl Fn(&str) -> bool) -> Option<&L
     least.map(|(_, line)| line)
 }
 
-/// The commands that are at a limit for much of the steady part; `None` if there are none.
+/// A note on the controllers whose command is at a limit for much of the steady part; `None` if
+/// there are none.
 #[must_use]
 pub fn told_of_limits(lines: &[Line]) -> Option<String> {
     let lines = lines.iter().filter(|line| line.diverged == 0);

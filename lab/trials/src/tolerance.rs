@@ -1,4 +1,4 @@
-//! The deviations of the parameters up to which the loop with the observer is proved stable, and
+//! The parameter deviations up to which the loop with the observer is proved stable, and iterative
 //! learning is proved to converge.
 
 use super::data_sheet::{nominal, shown};
@@ -10,8 +10,8 @@ use bowden_bound::{Interval, IterativeLearningConvergence, ObserverStability, Pl
 use bowden_rig::RigConfig;
 use serde::Serialize;
 
-/// The largest share by which all parameters of the plant may deviate at once, with the loop proved
-/// stable, or its learning proved to converge.
+/// The largest fraction by which all parameters of the plant may deviate simultaneously. Up to this
+/// fraction, the loop is proved stable, or its iterative learning is proved to converge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {
     /// The control law.
@@ -19,9 +19,9 @@ pub struct Tolerance {
     /// `stability` or `convergence`.
     pub kind: &'static str,
     /// Tolerance of gain, damping ratio, c/K of the joint and latency, and twice the tolerance of
-    /// wn. Rounded down to 0.001, for the learning to 0.01.
+    /// wn. The value is rounded down to 0.001, or to 0.01 for iterative learning.
     pub share: Option<f64>,
-    /// The reason why there is none.
+    /// The reason why there is no tolerance.
     pub refused: Option<String>,
     /// The plant at the centre.
     pub plant: Middle,
@@ -34,7 +34,7 @@ pub struct Tolerance {
 pub struct Middle {
     /// alpha \[N·m/unit\] of a cable without hysteresis.
     pub gain: f64,
-    /// Smallest and largest slope of the cable, as a share of B.
+    /// Smallest and largest slope of the cable, as fractions of B.
     pub slopes: [f64; 2],
     /// wn \[rad/s\].
     pub natural_frequency: f64,
@@ -65,7 +65,7 @@ static OF_LEARNING: &[&str] = &[
 ];
 
 impl Middle {
-    /// The numbers of a rig whose commands take so long to show \[s\].
+    /// The nominal plant of a rig with this latency \[s\].
     fn of(rig: &RigConfig<f64>, latency: f64) -> Result<Self, Error> {
         let sheet = nominal(rig)?;
         Ok(Self {
@@ -100,7 +100,7 @@ impl Middle {
 /// The tolerance of the setup's PI with its observer, around the parameters of its rig.
 ///
 /// # Errors
-/// A message if the core refuses the gains or the rig's parameters.
+/// A message if the core rejects the gains or the rig's parameters.
 pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
     let laws = laws(setup)?;
     let plant = middle(setup, laws.observer.latency())?;
@@ -119,11 +119,11 @@ pub fn tolerance(setup: &Setup) -> Result<Tolerance, String> {
     })
 }
 
-/// The same for the setup's PI with its learning, over a gait with a cycle up to a tenth longer or
-/// shorter.
+/// The tolerance of the setup's PI with iterative learning, over a gait whose cycle is up to a
+/// tenth longer or shorter.
 ///
 /// # Errors
-/// As [`tolerance`].
+/// The same as [`tolerance`].
 pub fn convergence(setup: &Setup) -> Result<Tolerance, String> {
     let laws = laws(setup)?;
     let plant = middle(setup, shown(&setup.rig, RATE))?;
@@ -158,7 +158,8 @@ fn middle(setup: &Setup, latency: f64) -> Result<Middle, String> {
     Middle::of(&setup.rig, latency).map_err(|e| format!("[rig]: {e}"))
 }
 
-/// The largest proved share, or the reason why there is no proof for the rig's own plant.
+/// The largest proved tolerance, or the reason why there is no proof for the nominal plant of the
+/// rig.
 fn found<S: Fn(f64) -> Result<(), Error>>(
     shown: S,
     most: fn(&S) -> f64,
@@ -169,9 +170,10 @@ fn found<S: Fn(f64) -> Result<(), Error>>(
     }
 }
 
-/// Smallest and largest slope of the torque over the input torque, as a share of B: along a path `d
-/// eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and `rho·(1 + (2·sigma − 1)·|eta|^n)` towards
-/// it, so between `rho·min(0, 2·sigma)` and `rho·max(1, 2·sigma)`.
+/// Smallest and largest slope of the torque versus the input torque, as fractions of B. Along a
+/// path, `d eta/d tau_i` is `rho·(1 − |eta|^n)` away from zero and
+/// `rho·(1 + (2·sigma − 1)·|eta|^n)` towards zero. It is therefore between `rho·min(0, 2·sigma)`
+/// and `rho·max(1, 2·sigma)`.
 fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     let share = rig.kappa_eta * rig.rho / rig.b;
     let (least, most) = ((2.0 * rig.sigma).min(0.0), (2.0 * rig.sigma).max(1.0));
@@ -179,8 +181,8 @@ fn slopes(rig: &RigConfig<f64>) -> [f64; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The greatest share that is shown, by steps of 0.001: of a wider range nothing more can be, so
-/// halving finds it.
+/// The largest tolerance that is proved, in steps of 0.001, found by bisection. Bisection is
+/// sufficient, because a wider range is never easier to prove.
 fn most<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
     let share = |step: u32| f64::from(step) / 1000.0;
     let (mut good, mut bad) = (0, 1000);
@@ -194,7 +196,8 @@ fn most<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
     share(good)
 }
 
-/// The same by steps of 0.01: a proof that fails takes far longer than one that does not.
+/// The largest tolerance that is proved, in steps of 0.01 from below, because a proof that fails
+/// takes much longer than a proof that succeeds.
 fn most_in_hundredths<S: Fn(f64) -> Result<(), Error>>(shown: &S) -> f64 {
     let share = |step: u32| f64::from(step) / 100.0;
     let failed = (1..100).find(|step| shown(share(*step)).is_err());

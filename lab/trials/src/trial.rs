@@ -16,11 +16,11 @@ pub const MOST_UNDECLARED: usize = 4;
 /// The rate of the paper's experiment, and of the reference rig \[Hz\].
 pub const RATE: f64 = 1000.0;
 
-/// From where errors count \[s\]: the traces of Figure 9 start at the full reference; from
-/// 5 s errors count, as in the figures that the rig was calibrated to.
+/// Start of the time over which errors are computed \[s\]. The errors to which the rig was
+/// calibrated also start at 5 s.
 pub const FROM: f64 = 5.0;
 
-/// Where the steady part begins \[s\]; the paper's Figure 9 shows what comes before.
+/// Start of the steady part \[s\]. Figure 9 of the paper shows the time before.
 pub const TRANSIENT: f64 = 12.0;
 
 /// The law of a controller.
@@ -30,12 +30,12 @@ pub const TRANSIENT: f64 = 12.0;
 pub enum Law {
     /// PI, PID or PIV.
     Pid(Pid<f64>),
-    /// The adaptive law; the third regressor is the found effect, or none.
+    /// The adaptive law. The third regressor is the found effect, if there is one.
     Adaptive(ThreeRegressors),
 }
 
 impl Law {
-    /// Of its command.
+    /// The limits of its command.
     fn limits(&self) -> Limits<f64> {
         match self {
             Self::Pid(pid) => pid.settings().limits,
@@ -44,7 +44,7 @@ impl Law {
     }
 }
 
-/// The adaptive law over velocity, acceleration and the found effect.
+/// The adaptive law with velocity, acceleration and the found effect as regressors.
 pub type ThreeRegressors = Adaptive<f64, 3>;
 
 /// A controller on the rig.
@@ -54,21 +54,23 @@ pub struct Controller {
     pub name: String,
     /// Its law.
     pub law: Law,
-    /// Steps a second \[Hz\].
+    /// Number of steps per second \[Hz\].
     pub rate: f64,
-    /// The law is called on every Nth step, where N is this number; its command is held in between.
+    /// The law is called on every Nth step, where N is this number. Its command is held in between.
     pub every: usize,
     /// Feed-forward, added to the command.
     pub feed: Option<FeedForward>,
-    /// A disturbance observer, with the feed-forward of its nominal plant; both are added to the
+    /// A disturbance observer, with the feed-forward of its nominal plant. Both are added to the
     /// command.
     pub observer: Option<DisturbanceObserver<f64>>,
-    /// Learning over the reference's cycle, also added to the command.
+    /// Iterative learning over the cycle of the reference. Its feed-forward is also added to the
+    /// command.
     pub learned: Option<Learned>,
-    /// Command that the law itself gives for a torque \[units/(N·m)\]: the adaptive law
-    /// feeds the reference forward by beta_hat, and the model's command must not repeat it.
+    /// Feed-forward of the law itself per torque \[units/(N·m)\]. The adaptive law feeds the
+    /// reference forward with the gain beta_hat, and the command of the model must not repeat this
+    /// feed-forward.
     pub own_share: f64,
-    /// The third regressor: the found effects along the reference.
+    /// The third regressor, which is the sum of the found effects along the reference.
     pub regressor: Option<FeedForward>,
 }
 
@@ -93,13 +95,13 @@ impl Controller {
 /// The conditions of a trial.
 #[derive(Debug, Clone)]
 pub struct Conditions {
-    /// The rig's numbers.
+    /// The parameters of the rig.
     pub rig: RigConfig<f64>,
     /// The undeclared effects of the rig.
     pub undeclared: Vec<Term<f64>>,
     /// The reference.
     pub reference: Reference<f64>,
-    /// Length \[s\].
+    /// Duration of the trial \[s\].
     pub seconds: f64,
     /// Start of the time over which errors are computed \[s\].
     pub from: f64,
@@ -125,13 +127,13 @@ pub struct Trial {
     pub transient: Errors,
     /// Largest command of the whole trial \[units\].
     pub command: f64,
-    /// Total variation of the command \[units/s\] over the steady part.
+    /// Total variation of the command per second over the steady part \[units/s\].
     pub effort: f64,
-    /// Changes of direction of the command \[1/s\] over the steady part.
+    /// Number of reversals of the command per second over the steady part \[1/s\].
     pub reversals: f64,
-    /// Share of the steady part in which the command is at a limit.
+    /// Fraction of the steady part in which the command is at a limit.
     pub at_limit: AtLimit,
-    /// Time at which the loop diverged \[s\]; `None` if it did not.
+    /// Time at which the loop diverged \[s\]; `None` if the loop did not diverge.
     pub ran_away: Option<f64>,
     /// One row for each sample, if requested.
     pub trace: Vec<Row>,
@@ -162,14 +164,14 @@ enum Running<'a> {
     Adaptive(&'a ThreeRegressors, Box<AdaptiveState<f64, 3>>),
 }
 
-/// What a controller reads at one sample.
+/// The inputs of a controller at one sample.
 struct Reading<'a> {
     now: &'a RigSample<f64>,
     dt: f64,
     reference: f64,
     next_reference: f64,
     feed_forward: f64,
-    /// What the third regressor reads.
+    /// The value of the third regressor.
     found: f64,
 }
 
@@ -236,13 +238,13 @@ impl Sums {
     }
 }
 
-/// A loop whose error is beyond this \[N·m\] has diverged: the rig's sensor ends at 100.
+/// Error beyond which a loop has diverged \[N·m\]. The range of the sensor ends at 100 N·m.
 const RUNAWAY: f64 = 1000.0;
 
 /// Runs one controller.
 ///
 /// # Errors
-/// A number of the rig that the core refuses.
+/// The error of the core for an invalid parameter of the rig.
 pub fn run(
     controller: &Controller,
     conditions: &Conditions,

@@ -1,17 +1,17 @@
-//! Effects that are switched on in the rig without the controllers' knowledge.
+//! Effects that are active in the rig without the knowledge of the controllers.
 //!
-//! Shapes are in units of the joint's motion along the reference; the gain is chosen so that the
-//! effect's contribution along the reference has the requested rms value.
+//! Shapes are relative to the motion of the joint along the reference. The gain is chosen so that
+//! the contribution of the effect along the reference has the requested rms value.
 
 use super::trial::FROM;
 use bowden::effect::{Effect, EffectState, Inputs, Motion, Quantity, CATALOGUE};
 use bowden::model::{Source, Term};
 use bowden_rig::{Reference, RigConfig};
 
-/// Contribution of an effect without a stated strength \[N·m rms\].
+/// Default contribution of an effect \[N·m rms\].
 ///
-/// With more of some effects, a loop with the paper's gains is unstable: a viscous joint delays its
-/// own torque, and friction that falls with speed excites itself.
+/// With larger contributions of some effects, a loop with the paper's gains is unstable. A viscous
+/// joint delays its own torque, and friction that decreases with speed is self-exciting.
 #[must_use]
 pub fn usual_strength(name: &str) -> f64 {
     match name {
@@ -130,7 +130,7 @@ impl Undeclared {
     }
 }
 
-/// The pulley at the joint, if there is something to read.
+/// The usual channel of an effect, if the effect reads a channel.
 fn usual(name: &str) -> Option<Source> {
     match name {
         "temperature" | "crosstalk" | "stretch-linear" | "stretch-cubic" => None,
@@ -141,7 +141,7 @@ fn usual(name: &str) -> Option<Source> {
     }
 }
 
-/// Plausible shapes, in the core's order.
+/// Plausible shapes, in the order of the core.
 fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
     match name {
         "coulomb"
@@ -173,14 +173,14 @@ fn shapes(name: &str, reach: f64, speed: f64) -> Vec<f64> {
     }
 }
 
-/// What the reference makes the rig do, as if the controller were perfect.
+/// The motion of the rig along the reference with an ideal controller.
 struct Path {
     input: Vec<Motion<f64>>,
     proximal: Vec<Motion<f64>>,
     distal: Vec<Motion<f64>>,
 }
 
-/// Step of the path along which strengths are counted \[s\].
+/// Time step for the computation of strengths along the reference \[s\].
 const STEP: f64 = 0.005;
 
 impl Path {
@@ -210,7 +210,7 @@ impl Path {
         }
     }
 
-    /// Rms of the contribution; of its changes where the effect is not constant.
+    /// Rms of the contribution, or of its variation if the effect is not constant.
     fn rms(&self, term: &Term<f64>) -> f64 {
         let mut memory = EffectState::new();
         let values: Vec<f64> = self
@@ -243,7 +243,7 @@ impl Path {
     }
 }
 
-/// Middle, half of the range, and rms speed.
+/// Middle and half of the range, and rms speed.
 fn extent(motions: &[Motion<f64>]) -> (f64, f64, f64) {
     let positions = motions.iter().map(|m| m.position);
     let low = positions.clone().fold(f64::INFINITY, f64::min);

@@ -28,7 +28,7 @@ def _count(name: str, value: Any) -> int:
 class NominalPlant(Settings):
     """Nominal plant alpha/(s²/wn² + 2·zeta·s/wn + 1) from command to output.
 
-    If the gain and the natural frequency are uncertain, choose low values.
+    If the gain and the natural frequency are uncertain, choose low values for both.
     """
 
     gain: float = setting(convert=_real, kw_only=False, doc="alpha [N·m/command unit].")
@@ -56,7 +56,7 @@ class NominalPlant(Settings):
     def feed_forward(self, output: Any, velocity: Any = 0.0, acceleration: Any = 0.0) -> Any:
         """The command [command unit] for which the output of the plant has this motion.
 
-        The arguments, in [N·m], [N·m/s] and [N·m/s²], are numbers or arrays of one shape.
+        The arguments, in [N·m], [N·m/s] and [N·m/s²], are numbers or arrays of the same shape.
         """
         named = {"output": output, "velocity": velocity, "acceleration": acceleration}
         given = [_numbers.numbers(name, own) for name, own in named.items()]
@@ -74,7 +74,7 @@ class NominalPlant(Settings):
 
 
 class DisturbanceObserver(Settings):
-    """Estimates friction and load by comparison with the nominal plant, and compensates them.
+    """Disturbance observer: estimates friction and load by comparison with the nominal plant.
 
     Pass the observer to a controller (``PI(observer=…)``), which adds the estimate to its command.
     ``bowden certify`` shows whether the loop is stable for plants near the reference rig.

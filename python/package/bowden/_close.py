@@ -55,8 +55,8 @@ def identify(
     * a record: a pandas or polars frame, a pyarrow table, a mapping of names to arrays, a
       :class:`bowden.Record`, or the path of a file (CSV, JSON, .xlsx, .mat v5 or v7.3, Parquet,
       .npz or .npy; gzip is allowed).
-    * a list of such records of one rig, for one joint model. Of three or more records, the last
-      one is held out as a whole, unless ``per_file`` is given.
+    * a list of such records of one rig, for one joint model. If there are three or more
+      records, the last one is held out as a whole, unless ``per_file`` is given.
 
     Options of the program `bowden identify`, with the same names (``channels`` is ``--channel``):
 
@@ -71,7 +71,7 @@ def identify(
     time, input, output
         Column names; default: ``t``, ``tau_i`` or ``x``, and ``tau_o`` or ``f``.
     start, end
-        Times at which the record is cut, from the first time stamp [s].
+        Start and end of the used part of the record, from the first time stamp [s].
     cutoff
         Cut-off frequency of the low-pass filter [Hz]; default: from the spectrum of the input.
     rate
@@ -104,7 +104,8 @@ def identify(
     figures
         ``False`` keeps no figures, page, trace or model. Use it for many records.
     threads
-        Number of threads; default: all threads of the machine. The results do not depend on it.
+        Number of threads; default: all threads of the machine. The results do not depend on
+        this number.
     progress
         ``True`` for a new tqdm bar (without tqdm: lines on stderr), an existing tqdm bar, or a
         function. The function is called with the completed fraction (``None`` if unknown) and the

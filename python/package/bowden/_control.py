@@ -1,4 +1,4 @@
-"""The common part of all controllers."""
+"""Base class of all controllers."""
 
 from __future__ import annotations
 
@@ -48,22 +48,23 @@ class Controller(Changing):
     """A torque controller with its state: :class:`PI`, :class:`PID`, :class:`PIV` or
     :class:`Adaptive`.
 
-    If a setting is an array, there is one controller (lane) for each value. ``lanes`` makes that
-    many controllers with the same settings. Times are in seconds, or durations with a unit.
+    If a setting is an array, there is one controller (lane) for each value. ``lanes`` is
+    the number of controllers with the same settings. Times are in seconds, or durations with a
+    unit.
 
     Each setting is also a read-only attribute. :meth:`bumpless_transfer` changes the settings of a
-    running controller without a jump of the command.
+    running controller without a jump in the command.
 
     The defaults are for a simulation. Without ``limits`` any finite command is applied, and without
     ``fallback`` the last good command is held indefinitely. Without ``longest_dt`` any positive
-    ``dt`` is good, except that the first-order adaptive law has its own limit. A machine needs all
-    three settings.
+    ``dt`` is good, except that the first-order adaptive law has its own limit. Set all
+    three on a machine.
 
     The estimate of the ``observer`` and the feed-forward of ``learning`` are added to the command
     of each lane before its limits.
 
-    ``copy.copy``, ``copy.deepcopy`` and ``pickle`` copy the settings and the state. A second thread
-    waits while the first one steps.
+    ``copy.copy``, ``copy.deepcopy`` and ``pickle`` copy the settings and the state. If two threads
+    use a controller, one thread waits while the other thread steps.
     """
 
     limits: Any = setting(
@@ -170,8 +171,8 @@ class Controller(Changing):
         ``dt`` is the time since the last sample [s], or a duration with a unit. ``reference`` and
         ``measured`` are in [N·m]. PIV reads ``velocity`` [rad/s]. The adaptive law reads
         ``regressors``, each with one number or one for each lane. Iterative learning reads
-        ``phase``, the position in the cycle from 0 to 1. Set ``learns`` to False if a limit cut the
-        command, or during another task.
+        ``phase``, the position in the cycle from 0 to 1. Set ``learns`` to False if a limit
+        changed the command, or during another task.
 
         A bad sample (NaN, or a ``dt`` that is not positive) does not raise an error. The command is
         then held, and the status and the fault report the bad input. A value that is not a number
@@ -364,7 +365,7 @@ class Controller(Changing):
         self._native.acknowledge()
 
     def reset(self) -> None:
-        """Resets all but the applied command, the fault counter and a latched safe command."""
+        """Resets all except the applied command, the fault counter and a latched safe command."""
         self._native.reset()
 
     def restore(self) -> None:
@@ -415,6 +416,8 @@ class Controller(Changing):
     def learned(self) -> Any:
         """The learned value of each cell [command unit], (cells,) or (lanes, cells).
 
-        ``None`` without learning. ``IterativeLearning(…, learned=…)`` continues from them."""
+        ``None`` without learning. Pass these values to ``IterativeLearning(…, learned=…)`` to
+        continue learning.
+        """
         all = self._native.learned()
         return all if all is None else np.asarray(all[0] if self._alone else all)

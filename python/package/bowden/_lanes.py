@@ -145,7 +145,7 @@ class Changing(Lanes):
     _INSTEAD: ClassVar[str] = "bumpless_transfer({}=…) changes it without a jump of the command"
 
     def bumpless_transfer(self, **settings: Any) -> None:
-        """Changes the given settings without a jump of the command (bumpless transfer).
+        """Changes the given settings without a jump in the command (bumpless transfer).
 
         ``lanes``, ``observer``, ``learning`` and the number of regressors cannot change. An error
         changes nothing.

@@ -13,7 +13,7 @@ from ._settings import GREATEST, duration, one_of, real, setting
 
 
 class Linear(Controller):
-    """The common part of PI, PID and PIV."""
+    """Base class of PI, PID and PIV."""
 
     k_p: Any = setting(
         default=30.0, kw_only=False, doc="Proportional gain [command unit/output unit]."

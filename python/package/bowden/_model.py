@@ -104,7 +104,7 @@ class Model:
         time_constant: Any = None,
         dtype: Any = np.float64,
     ) -> np.ndarray[Any, Any]:
-        """Computes the output sample by sample as firmware does, starting from a new state.
+        """Computes the output sample by sample as firmware does, starting from an initial state.
 
         ``input`` and each channel are arrays with shape (samples,) or (samples, 3). The three
         columns are position, velocity and acceleration. For (samples,), the causal filter `Rates`

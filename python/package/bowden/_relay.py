@@ -111,14 +111,14 @@ class Relay(Block):
         }
 
     def step(self, dt: Any, measured: Any) -> RelayResult:
-        """Processes one output sample, ``dt`` [s] (or a duration) after the last one."""
+        """Processes one output sample, ``dt`` [s] (or a duration) after the previous one."""
         (command, *_), phase, fault = self._one(dt, "measured", measured)
         if self._alone:
             return RelayResult(command, RelayPhase(phase), Fault(fault))
         return RelayResult(command, phase, fault)
 
     def run(self, dt: Any, measured: Any) -> RelayResult:
-        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time, or one time per sample."""
         (command, *_), phase, fault = self._many(dt, "measured", measured)
         return RelayResult(command, phase, fault)
 

@@ -28,7 +28,7 @@ _HEX = {"good": "#15803d", "mid": "#a16207", "bad": "#b91c1c"}
 
 
 class _Found(Fields):
-    """The common part of both reports."""
+    """Base class of both reports."""
 
     __slots__ = ("_json", "_native", "_command")
 

@@ -182,7 +182,7 @@ class Rig(Lanes):
         return found
 
     def sample(self) -> dict[str, Any]:
-        """The present sample: the true torque (``tau_o``) and the sensor reading (``measured``)."""
+        """The current sample: the true torque (``tau_o``) and the sensor reading (``measured``)."""
         return self._named(self._native.sample(), 0)
 
     def step(self, command: Command, dt: Any = 0.001, load: Any = 0.0) -> dict[str, Any]:

@@ -82,7 +82,7 @@ class PlausibleResult(NamedTuple):
 
 
 class Block(Lanes):
-    """The common part of all blocks."""
+    """Base class of all blocks."""
 
     @classmethod
     def _start(cls, documents: list[str], kept: Mapping[str, Any]) -> _bowden.Blocks:
@@ -130,7 +130,8 @@ class Block(Lanes):
 class Rates(Block):
     """Causal velocity and acceleration from position samples, with gaps and wrap-around.
 
-    Well below the sampling rate ``V/X = s/(tau·s + 1)`` and ``A/X = s²/(tau·s + 1)²``.
+    Well below the sampling rate, the transfer functions are ``V/X = s/(tau·s + 1)`` and
+    ``A/X = s²/(tau·s + 1)²``.
     """
 
     time_constant: Any = setting(
@@ -169,14 +170,14 @@ class Rates(Block):
         return {**super()._from_core(core), "longest_gap": core["block"]["longest_gap"]}
 
     def step(self, dt: Any, position: Any) -> RatesResult:
-        """Processes one ``position``, ``dt`` [s] (or a duration) after the last one."""
+        """Processes one ``position``, ``dt`` [s] (or a duration) after the previous one."""
         (x, v, a), status, fault = self._one(dt, "position", position)
         if self._alone:
             return RatesResult(x, v, a, RatesStatus(status), Fault(fault))
         return RatesResult(x, v, a, status, fault)
 
     def run(self, dt: Any, position: Any) -> RatesResult:
-        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time, or one time per sample."""
         (x, v, a), status, fault = self._many(dt, "position", position)
         return RatesResult(x, v, a, status, fault)
 
@@ -185,7 +186,7 @@ class EdgeVelocity(Block):
     """Velocity of a slow encoder from the time between its counts (period measurement).
 
     At a constant speed of f counts per second the relative error is at most f·dt/(1 − f·dt) while
-    f·dt < 1. A speed below ``count/longest_gap`` reads as zero.
+    f·dt < 1. A speed below ``count/longest_gap`` is reported as zero.
     """
 
     count: Any = setting(
@@ -203,14 +204,14 @@ class EdgeVelocity(Block):
     )
 
     def step(self, dt: Any, position: Any) -> EdgeVelocityResult:
-        """Processes one ``position``, ``dt`` [s] (or a duration) after the last one."""
+        """Processes one ``position``, ``dt`` [s] (or a duration) after the previous one."""
         (velocity, *_), status, fault = self._one(dt, "position", position)
         if self._alone:
             return EdgeVelocityResult(velocity, EdgeStatus(status), Fault(fault))
         return EdgeVelocityResult(velocity, status, fault)
 
     def run(self, dt: Any, position: Any) -> EdgeVelocityResult:
-        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time, or one time per sample."""
         (velocity, *_), status, fault = self._many(dt, "position", position)
         return EdgeVelocityResult(velocity, status, fault)
 
@@ -219,19 +220,19 @@ class _Filter(Block):
     """A block with one input and one output signal."""
 
     def step(self, dt: Any, sample: Any) -> Any:
-        """Processes one sample, ``dt`` [s] (or a duration) after the last one.
+        """Processes one sample, ``dt`` [s] (or a duration) after the previous one.
 
         A bad sample (NaN, or a ``dt`` that is not positive) leaves the output unchanged.
         """
         return self._one(dt, "sample", sample)[0][0]
 
     def run(self, dt: Any, sample: Any) -> Any:
-        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time, or one time per sample."""
         return self._many(dt, "sample", sample)[0][0]
 
 
 class LowPass(_Filter):
-    """First-order low-pass filter. The first good sample starts the filter at rest."""
+    """First-order low-pass filter. At the first good sample, the filter starts in steady state."""
 
     time_constant: Any = setting(
         convert=duration, kw_only=False, doc="tau [s]; the corner frequency is 1/(2·pi·tau) [Hz]."
@@ -239,7 +240,7 @@ class LowPass(_Filter):
 
 
 class Biquad(_Filter):
-    """Second-order low-pass or notch. The first good sample starts the filter at rest."""
+    """Second-order low-pass or notch filter. It starts in steady state at the first good sample."""
 
     response: Any = setting(
         convert=one_of("low-pass", "notch"), kw_only=False, doc="Filter type, low-pass or notch."
@@ -274,7 +275,7 @@ class Ramp(Block):
         return self._one(dt, "wanted", wanted)[0][0]
 
     def run(self, dt: Any, wanted: Any) -> Any:
-        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time, or one time per sample."""
         return self._many(dt, "wanted", wanted)[0][0]
 
 
@@ -306,11 +307,11 @@ class Plausible(Block):
     )
 
     def step(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
-        """Checks a sample. ``moves``: the machine moves, so the signal must change."""
+        """Checks a sample. Set ``moves`` while the machine moves and the signal must change."""
         (value, *_), _, fault = self._one(dt, "sample", sample, moves)
         return PlausibleResult(value, Implausible(fault) if self._alone else fault)
 
     def run(self, dt: Any, sample: Any, moves: Any = True) -> PlausibleResult:
-        """Processes (samples,) or (samples, lanes). ``dt`` is one time or (samples,)."""
+        """Processes (samples,) or (samples, lanes). ``dt`` is one time, or one time per sample."""
         (value, *_), _, fault = self._many(dt, "sample", sample, moves)
         return PlausibleResult(value, fault)

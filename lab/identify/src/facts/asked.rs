@@ -1,4 +1,4 @@
-//! Options for reading records, and options that all searches have in common.
+//! Options for reading records, and options that all searches share.
 
 use super::source::{read_with_source, Source};
 use crate::ledger::Ledger;
@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 /// Columns, filter, baseline model and length of the search.
 #[derive(Debug, Clone, Default)]
 pub struct Asked {
-    /// Columns and the part of the record that are read.
+    /// The columns, and the part of the record that is read.
     pub options: Options,
-    /// Cut-off of the filter \[Hz\]; default: from the input's spectrum.
+    /// Cut-off of the filter \[Hz\]; default: from the spectrum of the input.
     pub cutoff: Option<f64>,
     /// The baseline model; `bouc-wen` if the list is empty.
     pub declare: Vec<String>,
@@ -47,8 +47,8 @@ impl Asked {
         read(path, &self.options)
     }
 
-    /// Reads a record together with the hash of the same bytes: a file may change while it is read,
-    /// and a pipe can be read only once.
+    /// Reads a record together with the hash of the same bytes, because a file may change between
+    /// two reads and a pipe can be read only once.
     ///
     /// # Errors
     /// The error, with its position in the file.
@@ -56,7 +56,7 @@ impl Asked {
         read_with_source(path, &self.options)
     }
 
-    /// Reads a record in memory; `label` replaces the name of its file.
+    /// Reads a record in memory. `label` replaces the name of its file.
     ///
     /// # Errors
     /// A message with the label.
@@ -64,7 +64,7 @@ impl Asked {
         parse(csv, label, &self.options).map_err(|e| e.to_string())
     }
 
-    /// The same.
+    /// The same as [`read_text`](Self::read_text), but with the error as a type.
     ///
     /// # Errors
     /// The error, with its position.
@@ -75,16 +75,16 @@ impl Asked {
     /// Reads several records of one rig, in common units.
     ///
     /// # Errors
-    /// A message with the file; also if a file, or one with the same samples, is given twice, if
-    /// two files disagree on their columns, or if there are too many.
+    /// A message with the file. Identical files, files with the same samples, files with different
+    /// columns, and too many files are also errors.
     pub fn read_together(&self, paths: &[PathBuf]) -> Result<Vec<Record>, String> {
         Self::all_of(paths, |path| self.read(path))
     }
 
-    /// The same, with the hash of each record.
+    /// The same as [`read_together`](Self::read_together), with the hash of each record.
     ///
     /// # Errors
-    /// As [`read_together`](Self::read_together).
+    /// The same as [`read_together`](Self::read_together).
     pub fn read_together_with_sources(
         &self,
         paths: &[PathBuf],
@@ -102,7 +102,7 @@ impl Asked {
     /// each with a label instead of its name.
     ///
     /// # Errors
-    /// As [`read_together`](Self::read_together).
+    /// The same as [`read_together`](Self::read_together).
     pub fn read_together_in_memory(
         &self,
         files: &[(&str, &[u8])],
@@ -151,7 +151,7 @@ impl Asked {
         Ok((data, structure))
     }
 
-    /// As [`prepare_all`](Self::prepare_all), of records that show a motion.
+    /// The same as [`prepare_all`](Self::prepare_all), for records with a motion.
     pub(super) fn prepare_moving(
         &self,
         records: &[Record],
@@ -175,8 +175,8 @@ impl Asked {
 
     /// One record, or several on common grids, and the baseline model.
     ///
-    /// With separate gains, one file does not determine the gains of another, so the end of each
-    /// file is held out.
+    /// With separate gains, one file does not determine the gains of another file. The end of each
+    /// file is therefore held out.
     pub(super) fn prepare_all(
         &self,
         records: &[Record],

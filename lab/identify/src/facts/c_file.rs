@@ -5,8 +5,8 @@ use crate::export::ModelFile;
 
 pub use crate::export::prefix as prefix_in_c;
 
-/// The C header of a model file: its bytes and the functions that load them, named after `name`,
-/// the stem of the file name ([`prefix_in_c`]).
+/// The C header of a model file: its bytes, and the functions that load them. `name`, the stem of
+/// the file name, determines the names of the functions ([`prefix_in_c`]).
 ///
 /// # Errors
 /// One sentence on the first error in the text, on a name that gives no prefix, or on a part that

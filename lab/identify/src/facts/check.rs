@@ -1,4 +1,4 @@
-//! Whether a model still holds on another record.
+//! Tests whether a model is valid on another record.
 
 use super::asked::Asked;
 use super::figures::Figures;
@@ -24,11 +24,11 @@ pub struct CheckFacts {
     pub rmse: f64,
     /// Rms error with the fitted gain and offset.
     pub rmse_gain_offset: f64,
-    /// Rms error up to which the model holds; `None` if nothing determines it.
+    /// Rms error up to which the model holds; `None` if no limit can be determined.
     pub allowed: Option<f64>,
-    /// The model's own held-out error, as a share of the standard deviation.
+    /// The model's own held-out error, as a fraction of the standard deviation.
     pub reference: Option<f64>,
-    /// The same in the output's unit, if the model file states it.
+    /// The same error in the unit of the output, if the model file states it.
     pub reference_rmse: Option<f64>,
     /// The errors that the model file states.
     pub came_with: Option<Errors>,
@@ -57,13 +57,13 @@ pub struct CheckFacts {
 pub struct DependsOn {
     /// Its name.
     pub variable: &'static str,
-    /// The variable as printed.
+    /// The printed name of the variable.
     pub words: String,
     /// The channel that it is computed from.
     pub channel: String,
-    /// Share of the squared error that a free curve over it removes.
+    /// Share of the squared error that a free-form function of the variable removes.
     pub share: f64,
-    /// Exact sign-flip p-value of that curve; `None` if it could not be tested.
+    /// Exact sign-flip p-value of this function; `None` if no test was possible.
     pub p: Option<f64>,
 }
 
@@ -85,7 +85,7 @@ pub struct CheckQuestion {
     pub figures: bool,
 }
 
-/// The answer.
+/// The result of a validation.
 #[derive(Debug, Clone)]
 pub struct Checked {
     /// Path of the record.
@@ -109,7 +109,7 @@ impl ModelOfFile {
         Ok(Self { given, mode })
     }
 
-    /// Refuses a model that does not describe its own records.
+    /// Rejects a model that does not describe its own records.
     ///
     /// # Errors
     /// A message if its verdict is `no-input-dependence`.
@@ -158,10 +158,10 @@ pub fn check(
     check_record(model, read?, question)
 }
 
-/// The same with a record that was already read.
+/// Runs a model on a record that was already read.
 ///
 /// # Errors
-/// As [`check()`].
+/// The same as [`check()`].
 pub fn check_record(
     model: &ModelOfFile,
     record: Record,
@@ -185,7 +185,7 @@ pub fn check_record(
     })
 }
 
-/// The message with the record's name, once.
+/// The message with the name of the record, but not twice.
 fn named(label: &str, message: String) -> String {
     match message.starts_with(label) {
         true => message,

@@ -1,4 +1,4 @@
-//! The main question: which effect does the baseline model lack?
+//! Identification: finds the effects that the baseline model lacks.
 
 use super::asked::{label, Asked};
 use super::cost::{CostFacts, Meter, Stage};
@@ -42,13 +42,13 @@ pub struct Close {
     pub meter: Meter,
 }
 
-/// The answer.
+/// The result of an identification.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// What was found.
+    /// The findings.
     pub facts: Facts,
-    /// The exported models: one, or one for each file with separate gains; empty if neither models
-    /// nor figures were requested, or if there is none.
+    /// The exported models: one model, or one model for each file with separate gains. The list is
+    /// empty if neither models nor figures were requested, or if no model can be exported.
     pub models: Vec<Handed>,
     /// The signals over time as CSV, if requested.
     pub trace: Option<String>,
@@ -95,14 +95,14 @@ impl Handed {
     /// Samples and the expected outputs of the model, as CSV.
     ///
     /// # Errors
-    /// A message with the part of the model that the core refuses.
+    /// A message with the part of the model that the core rejects.
     pub fn vector(&self) -> Result<&str, String> {
         self.vector.as_deref().map_err(Clone::clone)
     }
 }
 
 impl Close {
-    /// A request for the facts alone: no models, trace or figures. The meter starts now.
+    /// A request for the facts without models, trace or figures. The meter starts now.
     #[must_use]
     pub fn new(asked: Asked) -> Self {
         Self {
@@ -148,8 +148,8 @@ impl Close {
         run.suspicion()
     }
 
-    /// What each of several records supports alone, with the common filter; empty if the search
-    /// added nothing or was cut short.
+    /// The result for each of several records by itself, with the common filter. The list is empty
+    /// if the search added nothing or ended early.
     fn files_alone(&self, records: &[Record], cutoff: f64, ledger: &Ledger) -> Vec<FileAlone> {
         use rayon::prelude::*;
         let is_cut = self.asked.budget.is_some() || ledger.is_stopped();
@@ -174,8 +174,8 @@ impl Close {
 /// Identifies a model. `tell` receives one message per step.
 ///
 /// # Errors
-/// A message if the records cannot be prepared or the baseline model cannot be fitted; if a model is
-/// requested, also if no model can be exported.
+/// A message if the records cannot be prepared or the baseline model cannot be fitted, or if a
+/// model is requested and no model can be exported.
 pub fn close(records: &[Record], question: &Close, tell: &dyn Fn(&str)) -> Result<Closed, String> {
     let asked = &question.asked;
     let mut meter = question.meter;
@@ -264,7 +264,7 @@ fn handed(data: &Prepared, hand: &HandOver) -> Vec<Handed> {
         .collect()
 }
 
-/// A hint if the files do not seem to have the same configuration: `own` is the baseline model with
+/// A hint if the files do not seem to have the same configuration. `own` is the baseline model with
 /// separate gains for each file.
 fn hint(declared: &Solution, own: &Solution) -> Option<String> {
     let left = own.rmse.fit / declared.rmse.fit;

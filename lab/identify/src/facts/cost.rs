@@ -1,4 +1,5 @@
-//! Cost of a run of `identify`: counts, which are reproducible, and seconds, which are not.
+//! Cost of a run of `identify`: counts, which are reproducible, and seconds, which are not
+//! reproducible.
 
 use crate::problem::clock::Moment;
 use crate::problem::cost::Counts;
@@ -84,15 +85,15 @@ impl Meter {
         }
     }
 
-    /// Adds the elapsed time to the present stage, and begins the next one.
+    /// Adds the elapsed time to the current stage, and begins the next stage.
     pub(super) fn begins(&mut self, stage: Stage) {
         let now = Moment::now();
         *self.seconds.of(self.stage) += now.since(self.begun);
         (self.stage, self.begun) = (stage, now);
     }
 
-    /// Follows the messages of a search: the first message begins the fit of the baseline model,
-    /// the second one the search itself.
+    /// Follows the messages of a search. The first message begins the fit of the baseline model,
+    /// and the second message begins the search itself.
     pub(super) fn told(&mut self) {
         match self.stage {
             Stage::Preparing => self.begins(Stage::FittingDeclared),

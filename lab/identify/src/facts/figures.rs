@@ -13,33 +13,34 @@ use crate::score::binned::{binned, Bin};
 use crate::score::blocks::{blocks, BLOCKS};
 use crate::score::density::Spectrum;
 
-/// Maximum number of bins over a variable.
+/// Maximum number of bins for a variable.
 const BINS: usize = 20;
 
-/// All data that a page draws for a run; residuals come in pairs, before and after.
+/// All data that a page draws for a run. Each pair of residuals is from the baseline and the final
+/// model or, in a validation, without and with the fitted gain and offset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// The signals over time.
     pub signals: Signals,
-    /// The residuals over each measured or derived variable.
+    /// The residuals versus each measured or derived variable.
     pub over: Vec<Dependence>,
-    /// The residuals' autocorrelation over all samples that count.
+    /// The autocorrelation of the residuals over all samples that are not excluded.
     pub autocorrelation: Autocorrelation,
-    /// The residuals' spectra on the fit segment.
+    /// The spectra of the residuals on the fit segment.
     pub spectrum: Spectrum,
-    /// The effect of each term on each block of the fit segment; terms that are not delivered come
-    /// last.
+    /// The effect of each term on each block of the fit segment. Terms that are not in the final
+    /// model are last.
     pub blocks: Vec<BlockScores>,
 }
 
-/// Residuals over a variable.
+/// Residuals versus a variable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dependence {
     /// The variable in words.
     pub words: String,
     /// Its unit, if the record states it.
     pub unit: Option<String>,
-    /// Bins in ascending order; the means of each are those before and after.
+    /// Bins in ascending order. Each bin has one mean for each of the two residuals.
     pub bins: Vec<Bin>,
 }
 
@@ -103,7 +104,7 @@ impl Figures {
     }
 }
 
-/// The residuals over all variables of the record.
+/// The residuals versus all variables of the record.
 fn over(
     data: &Prepared,
     solution: &Solution,

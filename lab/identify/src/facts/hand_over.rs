@@ -1,4 +1,4 @@
-//! The model for firmware: its parts, its errors there, its inverse.
+//! The model for firmware: its parts, its errors in firmware, and its inverse.
 
 use super::model::{effects, FinalFacts};
 use crate::conclude::verdict::percent;
@@ -14,30 +14,31 @@ use crate::record::DefectKind;
 pub struct HandOverFacts {
     /// Names of its parts.
     pub effects: Vec<String>,
-    /// Parts of the final model that it does not contain.
+    /// Parts of the final model that the exported model does not contain.
     pub left_out: Vec<LeftOut>,
     /// Whether a fit within the range that has an inverse was requested.
     pub within_inverse: bool,
     /// Whether that fit ended on the bound of this range.
     pub on_inverse_bound: bool,
-    /// The model itself, if this fit differs from the final model.
+    /// The exported model, if this fit differs from the final model.
     pub model: Option<FinalFacts>,
     /// Its errors, as shares of the output's standard deviation.
     pub nrmse: Segments,
     /// The errors of the final model, in the same form.
     pub as_fitted: Segments,
-    /// Its errors sample by sample with causal rates, in the same form.
+    /// Its errors sample by sample with causal velocity and acceleration estimates, in the same
+    /// form.
     pub causal: Segments,
-    /// The same with a play in front of the hysteresis, if the noise of the input causes the error.
+    /// The same errors with a play operator before the hysteresis, if input noise causes the error.
     pub calmed: Option<Calmed>,
-    /// Time constant of the causal rates \[s\].
+    /// Time constant of the causal velocity and acceleration estimates \[s\].
     pub time_constant: f64,
-    /// Whether it can serve as a feed-forward.
+    /// Whether the model can be used as a feed-forward.
     pub feed_forward: FeedForward,
 }
 
-/// The remark in the summary about the error in firmware: the fit has zero-phase velocities and a
-/// smooth input, but a microcontroller does not.
+/// The remark in the summary on the error in firmware. The fit uses zero-phase velocities and a
+/// filtered input, which a microcontroller does not have.
 pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     let errors = format!(
         "the held-out error is {} instead of {}",
@@ -63,7 +64,8 @@ pub(super) fn warning(data: &Prepared, hand: &HandOver) -> Option<String> {
     hand.is_off().then(said)
 }
 
-/// The error of a model that `--invertible` has changed, and the error of the unconstrained model.
+/// The error of a model that `--invertible` has changed, compared with the error of the
+/// unconstrained model.
 pub(super) fn price(hand: &HandOver) -> Option<String> {
     hand.is_another().then(|| {
         format!(
@@ -74,8 +76,8 @@ pub(super) fn price(hand: &HandOver) -> Option<String> {
     })
 }
 
-/// The first sentence if, with causal velocities and an unknown initial hysteresis state, a
-/// constant would have a smaller error than the model.
+/// The first sentence of the summary if a constant would have a smaller error than the model in
+/// firmware, with causal velocities and an unknown initial hysteresis state.
 pub(super) fn useless(hand: &HandOver) -> Option<String> {
     let calmed = hand
         .calmed
@@ -90,7 +92,7 @@ pub(super) fn useless(hand: &HandOver) -> Option<String> {
     })
 }
 
-/// The columns whose spikes reach a model in firmware, because no line replaces them there.
+/// The columns with spikes. In firmware, no straight line replaces these spikes.
 fn spikes(data: &Prepared) -> String {
     let read = std::iter::once(&data.input).chain(&data.channels);
     let spoilt = |name: &str| {

@@ -22,31 +22,31 @@ use crate::record::Mode;
 use crate::score::blocks::{Regime, BLOCKS};
 use crate::score::explains::{explained, segments_differ, Explained};
 
-/// Everything about one run.
+/// All facts about one run.
 #[derive(Debug, Clone)]
 pub struct Facts {
     /// The name of the record, or the names of several records.
     pub label: String,
     /// The record as it was read.
     pub record: RecordFacts,
-    /// Independent stretches of the fit segment, at most [`BLOCKS`].
+    /// Number of independent blocks of the fit segment, at most [`BLOCKS`].
     pub blocks: usize,
     /// The baseline model.
     pub declared: ModelFacts,
     /// The mechanisms that the baseline model lacks.
     pub lacks: Vec<Lack>,
-    /// What each of several files supports alone; empty for one file, or if nothing was added.
+    /// The result for each of several files by itself; empty for one file, or if nothing was added.
     pub files_alone: Vec<FileAlone>,
-    /// Whether the delivered model is complete.
+    /// Whether the final model is complete.
     pub complete: Complete,
     /// The added effects, in order.
     pub rounds: Vec<RoundFacts>,
-    /// Later terms that are not delivered: on left-out half-records the model is as good without
-    /// them.
+    /// Later terms that are not in the final model, because the model predicts half-records that
+    /// were not used for the fit equally well without them.
     pub beyond: Vec<RoundFacts>,
-    /// Number of leading terms that lower the held-out error before one raises it.
+    /// Number of terms, from the first, that reduce the held-out error before a term increases it.
     pub falls_up_to: usize,
-    /// The delivered model.
+    /// The final model.
     pub last: FinalFacts,
     /// The exported model, or the reason why there is none.
     pub hand_over: Result<HandOverFacts, String>,
@@ -60,13 +60,13 @@ pub struct Facts {
     pub deviation: Segments,
     /// Whether these differ so much that percentages on two segments are not comparable.
     pub segments_differ: bool,
-    /// Shares of the held-out output's variance.
+    /// Shares of the variance of the held-out output.
     pub explains: Explained,
     /// Files on which the final model is worse than the baseline model.
     pub worse: Vec<Worse>,
-    /// The requested number of effects, if it ended the search.
+    /// The requested number of effects, if this number ended the search.
     pub stopped_by_request: Option<usize>,
-    /// The requested time \[s\], if it ended the search.
+    /// The requested time limit \[s\], if this limit ended the search.
     pub stopped_by_budget: Option<f64>,
     /// Correlation time of the residual \[s\], if it is too long for tests.
     pub correlated_for: Option<f64>,
@@ -78,12 +78,12 @@ pub struct Facts {
     pub sentence: String,
 }
 
-/// Detail of the facts.
+/// The level of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
-    /// Everything except the models after each term.
+    /// All facts except the models after each term.
     Ledger,
-    /// Also the model after each term, at the cost of one fit each.
+    /// All facts, including the model after each term, which costs one fit for each term.
     EachRound,
 }
 
@@ -113,25 +113,26 @@ pub struct UnknownFacts {
     pub unit: Option<String>,
     /// The channel that it is computed from.
     pub channel: String,
-    /// Share of the squared error that the curve removes.
+    /// Share of the squared error that the free-form curve removes.
     pub share: f64,
     /// Exact sign-flip p-value of the curve.
     pub p: f64,
-    /// Reduction of the SSE by the best one or two terms, divided by that by the curve.
+    /// Reduction of the squared error by the best one or two terms, divided by the reduction by the
+    /// curve.
     pub q: f64,
     /// The curve.
     pub curve: Vec<Knot>,
-    /// Rms errors before.
+    /// Rms errors without the curve.
     pub before: Segments,
-    /// Rms errors after.
+    /// Rms errors with the curve.
     pub after: Segments,
     /// The sentence about it.
     pub sentence: String,
-    /// Which models contain it.
+    /// The models that contain the curve.
     pub kept: &'static str,
 }
 
-/// Independent stretches of the fit segment, at most sixteen.
+/// Number of independent blocks of the fit segment, at most sixteen.
 fn block_count(data: &Prepared, ledger: &Ledger) -> usize {
     if ledger.regime == Regime::Blocks {
         return BLOCKS;
@@ -165,7 +166,7 @@ impl UnknownFacts {
 }
 
 impl Facts {
-    /// Collects everything about one run.
+    /// Collects all facts about one run.
     #[must_use]
     pub fn new(
         label: &str,

@@ -1,8 +1,7 @@
 //! The results of a run as plain data: names, numbers, sentences and the bytes of files.
 //!
-//! Each subcommand has its function here, which computes every number of the answer. A view
-//! (terminal, JSON) only reads the fields and uses no other module, so two views cannot print
-//! different results.
+//! Each subcommand has one function in this module, which computes every number of the result. A
+//! view (terminal, JSON) only reads the fields. Two views therefore cannot print different results.
 
 mod asked;
 mod c_file;

@@ -15,19 +15,19 @@ pub struct ModelFacts {
     pub effects: Vec<String>,
     /// Its parameters, gains first.
     pub parameters: Vec<Parameter>,
-    /// Rms errors in the output's unit.
+    /// Rms errors in the unit of the output.
     pub rmse: Segments,
-    /// The same as shares of the filtered output's standard deviation.
+    /// The same errors as fractions of the standard deviation of the filtered output.
     pub nrmse: Segments,
-    /// Errors against the output as recorded, as shares of its standard deviation.
+    /// Errors relative to the unfiltered output, as fractions of its standard deviation.
     pub nrmse_raw: Segments,
     /// Errors by file; `None` for a single record.
     pub rmse_by_file: Option<Vec<FileErrors>>,
-    /// The same as shares of the filtered output's standard deviation there.
+    /// The same errors as fractions of the standard deviation of the filtered output in each file.
     pub nrmse_by_file: Option<Vec<FileErrors>>,
 }
 
-/// The model that is delivered.
+/// The final model.
 #[derive(Debug, Clone)]
 pub struct FinalFacts {
     /// Names of all its parts.
@@ -36,21 +36,22 @@ pub struct FinalFacts {
     pub refitted: bool,
     /// Its parameters, gains first.
     pub parameters: Vec<Parameter>,
-    /// The name of each parameter as printed: two ripples differ by their order.
+    /// The printed name of each parameter. The names of two ripples, for example, differ by their
+    /// order.
     pub titles: Vec<String>,
     /// Number of leading parameters that are gains of one file.
     pub own_gains: usize,
     /// Names of the separate gains of each file.
     pub gain_names: [&'static str; 3],
-    /// Those gains; empty if they are common to all files.
+    /// The separate gains of each file; empty if the gains are common to all files.
     pub gains_by_file: Vec<GainsOfFile>,
-    /// Rms errors in the output's unit.
+    /// Rms errors in the unit of the output.
     pub rmse: Segments,
-    /// The same as shares of the filtered output's standard deviation.
+    /// The same errors as fractions of the standard deviation of the filtered output.
     pub nrmse: Segments,
     /// Errors by file; `None` for a single record.
     pub rmse_by_file: Option<Vec<FileErrors>>,
-    /// The same as shares of the filtered output's standard deviation there.
+    /// The same errors as fractions of the standard deviation of the filtered output in each file.
     pub nrmse_by_file: Option<Vec<FileErrors>>,
 }
 
@@ -59,7 +60,7 @@ pub struct FinalFacts {
 pub struct GainsOfFile {
     /// The file.
     pub path: String,
-    /// In the order of [`FinalFacts::gain_names`].
+    /// The gains in the order of [`FinalFacts::gain_names`].
     pub gains: [Option<Parameter>; 3],
 }
 
@@ -137,7 +138,7 @@ fn title(done: &FinalFit, parameter: &Parameter) -> String {
     }
 }
 
-/// Errors against the output as recorded, as shares of its standard deviation.
+/// Errors relative to the unfiltered output, as fractions of its standard deviation.
 fn raw(data: &Prepared, solution: &Solution) -> Segments {
     let prediction = solution.unfiltered.iter().step_by(data.stride);
     let residual: Vec<f64> = data

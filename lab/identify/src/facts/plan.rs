@@ -15,13 +15,13 @@ use crate::model::structure::FitTerm;
 use crate::problem::Prepared;
 use crate::record::Record;
 
-/// A planned experiment for what the records leave open.
+/// A planned experiment that resolves what the records leave open.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// The experiment; `None` if none of the known motions would help.
+    /// The experiment; `None` if no known motion would help.
     pub planned: Option<Planned>,
-    /// The verdict and its summary if the model does not describe the record: then no motion that
-    /// determines its parameters helps.
+    /// The verdict and its summary if the model does not describe the record. In this case, a
+    /// motion that determines the parameters of the model does not help.
     pub undescribed: Option<String>,
     /// Ambiguous effects, each with the alternatives that the planned motion does not separate from
     /// it ("presliding from backlash"), each pair once.
@@ -37,14 +37,14 @@ pub struct Plan {
 pub struct Planned {
     /// Its motion, and its expected result.
     pub experiment: Experiment,
-    /// Whether it separates ambiguous effects; otherwise it is for parameters that the record does
-    /// not identify.
+    /// Whether the experiment separates ambiguous effects. Otherwise it identifies parameters that
+    /// the record does not identify.
     pub confounded: bool,
     /// Its motion as CSV.
     pub csv: String,
 }
 
-/// Plans an experiment for what one or several records of one rig leave open.
+/// Plans an experiment that resolves what one or several records of one rig leave open.
 ///
 /// # Errors
 /// A message if no model can be identified from the records.

@@ -8,7 +8,7 @@ use crate::foresight::power::{power as try_all, Answer, Question, Row};
 use crate::problem::Prepared;
 use crate::record::Record;
 
-/// The table.
+/// The table of the smallest detectable effects.
 #[derive(Debug, Clone)]
 pub struct PowerFacts {
     /// The path of the record.
@@ -17,11 +17,11 @@ pub struct PowerFacts {
     pub record: RecordFacts,
     /// Names of all parts of the last model.
     pub model: Vec<String>,
-    /// Trials of each amplitude.
+    /// Number of trials for each amplitude.
     pub trials: usize,
-    /// Trials without a planted effect in which the search found an effect.
+    /// Number of trials without an injected effect in which the search found an effect.
     pub named_without: usize,
-    /// Sorted by family, from the simplest on, then by name and channel.
+    /// The rows, sorted by family (the simplest first), name and channel.
     pub rows: Vec<PowerRow>,
 }
 
@@ -36,7 +36,7 @@ pub struct PowerRow {
     pub name: String,
     /// The channel that it reads.
     pub channel: String,
-    /// The planted shapes.
+    /// The injected shapes.
     pub shapes: Vec<ShapeFacts>,
     /// Unit of its gain, if the record states the units of its columns.
     pub gain_unit: Option<String>,
@@ -44,7 +44,7 @@ pub struct PowerRow {
     pub answer: Answer,
 }
 
-/// A planted shape.
+/// An injected shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeFacts {
     /// Its name in the effect's formula.
@@ -55,9 +55,9 @@ pub struct ShapeFacts {
     pub unit: Option<String>,
 }
 
-/// Plants every requested effect and counts how often a search finds it.
+/// Injects every requested effect and counts how often a search finds it.
 ///
-/// `effects`: names of effects or families; all if it is empty.
+/// `effects` contains names of effects or families. An empty list means all effects.
 ///
 /// # Errors
 /// A message if no model can be identified from the record or an effect is unknown.

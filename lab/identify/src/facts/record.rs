@@ -10,9 +10,9 @@ use serde::Serialize;
 pub struct RecordFacts {
     /// Torque or displacement.
     pub mode: Mode,
-    /// Name of the input's column.
+    /// Name of the input column.
     pub input: String,
-    /// Name of the output's column.
+    /// Name of the output column.
     pub output: String,
     /// Unit of the output, if the record states it.
     pub unit: Option<String>,
@@ -20,17 +20,17 @@ pub struct RecordFacts {
     pub channels: Vec<String>,
     /// The files, in the order in which they were given.
     pub files: Vec<FileFacts>,
-    /// Samples of all files together.
+    /// Number of samples in all files together.
     pub samples: usize,
     /// Common sampling rate \[Hz\].
     pub rate: f64,
-    /// Length of all files together \[s\].
+    /// Duration of all files together \[s\].
     pub seconds: f64,
     /// Cut-off of the filter \[Hz\].
     pub cutoff: f64,
-    /// The sensor's noise after the filter, rms in the output's unit; 0 if unknown.
+    /// Rms sensor noise after the filter, in the unit of the output; 0 if unknown.
     pub noise_floor: f64,
-    /// The same for the held-out data.
+    /// The same noise for the held-out data.
     pub held_out_floor: f64,
     /// Remarks on how the columns were read.
     pub notes: Vec<String>,

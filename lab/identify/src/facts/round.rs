@@ -26,19 +26,19 @@ pub struct RoundFacts {
     pub channel: String,
     /// Confidence in the name.
     pub grade: Grade,
-    /// Its size in the model that is [shown](super::Facts::shown).
+    /// Its size in the [reported](super::Facts::shown) model.
     pub size: Size,
     /// Exact sign-flip p-value; `None` if the blocks were too short for a test.
     pub p: Option<f64>,
     /// Share of the squared error on the fit segment that the round removed.
     pub explained: f64,
-    /// The same for each of several files; empty for a single record.
+    /// The same share for each of several files; empty for a single record.
     pub by_file: Vec<FileShare>,
     /// Number of blocks, of [`BLOCKS`](super::BLOCKS), on which it lowers the error.
     pub blocks_better: usize,
     /// Effects that explain the record equally well.
     pub rivals: Vec<RivalFacts>,
-    /// The motion that would separate them, if one is known.
+    /// The motion that would separate these effects, if one is known.
     pub experiment: Option<Experiment>,
     /// Rms errors before the round.
     pub before: Segments,
@@ -68,7 +68,7 @@ pub enum Size {
     Gain(Parameter),
     /// The width of an input stage, which has no gain.
     Width(Parameter),
-    /// That model does not contain the effect.
+    /// The reported model does not contain the effect.
     Gone,
 }
 
@@ -81,19 +81,20 @@ pub struct RoundFit {
     pub model: RoundModel,
 }
 
-/// The model that would be exported if the search ended here. Like the final model it is refitted
-/// to the fit and selection segments together.
+/// The model that would be exported if the search ended here. Like the final model, this model is
+/// refitted to the fit and selection segments together.
 #[derive(Debug, Clone, Serialize)]
 pub struct RoundModel {
     /// The content of a model file.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<ModelFile>,
-    /// The same for each file, if the files have separate gains.
+    /// The content of a model file for each record, if the records have separate gains.
     #[serde(skip_serializing_if = "Option::is_none")]
     models: Option<Vec<ModelFile>>,
     /// Whether the parameters were fitted to the selection segment.
     refitted: bool,
-    /// The reason if the model still contains effects that belong to the record and not to the rig.
+    /// The reason why the model is not refitted without the effects that belong to the record and
+    /// not to the rig.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_refitted_without: Option<String>,
     /// Its errors, as shares of the output's standard deviation.
@@ -118,13 +119,13 @@ impl RoundModel {
     }
 }
 
-/// The fitted model after each round; rounds that are not delivered come last.
+/// The fitted model after each round. Rounds whose terms are not in the final model are last.
 pub(super) fn rounds_in_order(ledger: &Ledger) -> impl Iterator<Item = &Solution> {
     let rounds = ledger.rounds.iter().chain(&ledger.beyond);
     rounds.map(|round| &round.solution)
 }
 
-/// The models of all rounds; rounds that are not delivered come last.
+/// The models of all rounds. Rounds whose terms are not in the final model are last.
 pub(super) fn fits(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> Vec<RoundFit> {
     use rayon::prelude::*;
     let last = ledger.rounds.len();

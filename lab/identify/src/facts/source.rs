@@ -27,7 +27,7 @@ impl Source {
         Ok(Self::of_bytes(&label, &bytes))
     }
 
-    /// The source of bytes in memory; `label` replaces the name of their file.
+    /// The source of bytes in memory. `label` replaces the name of their file.
     #[must_use]
     pub fn of_bytes(label: &str, bytes: &[u8]) -> Self {
         let mut sha256 = String::with_capacity(64);
@@ -45,7 +45,7 @@ impl Source {
 /// Reads a record together with the hash of the same bytes.
 ///
 /// # Errors
-/// The refusal, with its position in the file.
+/// The error, with its position in the file.
 pub fn read_with_source(path: &Path, options: &Options) -> Result<(Record, Source), RecordError> {
     let label = path.display().to_string();
     let bytes = record::load(path)?;

@@ -1,10 +1,10 @@
 //! A sensor at the limit of its range.
 //!
 //! A clipped signal has a flat top that begins and ends with a slope, while the other end of the
-//! transmission continues to move. None of these signs alone is sufficient: a quantised signal is
-//! flat at its turning points (but arrives there slowly), a held input is flat and entered at speed
-//! (but then the output rests too), and a dry-friction force without noise is flat while the input
-//! moves (but then the input does not turn on that plateau).
+//! transmission continues to move. No single sign is sufficient. A quantised signal is flat at its
+//! turning points, but approaches them slowly. A held input is flat and begins abruptly, but then
+//! the output also rests. A dry-friction force without noise is flat while the input moves, but
+//! then the input does not reverse during the plateau.
 
 use super::companion::Companion;
 use super::{share, Found};
@@ -17,8 +17,8 @@ struct Clipped {
     plateaus: Vec<Range<usize>>,
 }
 
-/// Clipping of `signal` that is so heavy that nothing can be concluded: the first sample, and the
-/// refusal. `other` is the other end of the transmission.
+/// The first sample and the error message if `signal` is clipped so heavily that no conclusion is
+/// possible. `other` is the other end of the transmission.
 pub(crate) fn heavy(signal: &[f64], other: &[f64]) -> Option<(usize, String)> {
     let mut all = ends(signal, &Companion::new(other)).into_iter();
     let own = |end: Clipped| {
@@ -62,7 +62,7 @@ fn message(levels: &str, plateaus: usize, share: f64, decimals: usize) -> String
     )
 }
 
-/// Clipping at the upper and at the lower end; a plateau alone may be a turning point.
+/// Clipping at the upper and at the lower end. A single plateau may be a turning point.
 fn ends(signal: &[f64], other: &Companion) -> Vec<Clipped> {
     let (low, high) = range(signal);
     let judge = Judge::new(signal, other);
@@ -79,7 +79,7 @@ fn ends(signal: &[f64], other: &Companion) -> Vec<Clipped> {
 struct Judge<'a> {
     signal: &'a [f64],
     other: &'a Companion,
-    /// Smallest step of the signal: one count of its converter.
+    /// Smallest step of the signal, which is one count of its converter.
     count: f64,
     /// Root mean square of the steps that are not zero.
     usual_step: f64,
@@ -118,8 +118,8 @@ impl<'a> Judge<'a> {
         slope * plateau.len() as f64 / 4.0 >= 4.0 * self.count && slope >= 0.1 * self.usual_step
     }
 
-    /// Whether the other end moves on the plateau; without noise that leaves the signal there, it
-    /// must turn.
+    /// Whether the other end moves during the plateau. If the signal has no noise, the other end
+    /// must also reverse.
     fn is_clipped(&self, plateau: &Range<usize>) -> bool {
         let (means, noise) = self.other.parts(plateau);
         let (low, high) = range(&means);

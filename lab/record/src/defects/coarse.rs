@@ -1,18 +1,20 @@
-//! Steps so coarse that they shape the signal, as from a converter with few bits.
+//! Steps that are so coarse that they determine the shape of the signal, for example from a
+//! converter with few bits.
 //!
 //! The steps of a converter are usually finer than the signal's noise, which makes them harmless.
-//! Here most neighbouring values are equal, all values lie on a comb, and the error of the steps
-//! (q/√12) is a significant share of the signal. A commanded staircase looks the same, but the
-//! other end responds to each of its steps; with a coarse sensor the other end moves evenly.
+//! In a coarse signal, most neighbouring values are equal, all values are multiples of one step q,
+//! and the quantisation error (q/√12) is a significant fraction of the signal. A commanded
+//! staircase looks the same, but the other end responds to each step. With a coarse sensor, the
+//! other end moves smoothly.
 
 use super::companion::Companion;
 use super::Found;
 use crate::scale::{range, runs, spread, BETTER, FRACTION, GRAVE};
 
-/// A comb with more teeth than this is fine enough for any signal.
+/// Number of levels above which the steps are fine enough for any signal.
 const MOST_LEVELS: usize = 1000;
 
-/// The steps of a sensor that has few of them over its used range.
+/// The steps of a sensor with few steps in its used range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
     /// One step, in the column's unit.
@@ -49,14 +51,15 @@ pub(super) fn find(signal: &[f64], other: &Companion) -> Option<Found> {
     })
 }
 
-/// Whether the steps of a comb shape its signal: most neighbouring values are equal, and the other
-/// end does not respond to the steps.
+/// Whether the steps determine the shape of the signal: most neighbouring values are equal, and the
+/// other end does not respond to the steps.
 fn shapes(signal: &[f64], other: &Companion) -> bool {
     let same = signal.windows(2).filter(|pair| pair[0] == pair[1]).count();
     2 * same >= signal.len() && !is_commanded(signal, other)
 }
 
-/// A signal with a line through the edges of its steps; at a reversal the line reaches the level.
+/// A signal that is interpolated linearly between the edges of its steps. At a reversal, the line
+/// reaches the level.
 pub(super) fn through_edges(signal: &[f64]) -> Vec<f64> {
     let Some(last) = signal.len().checked_sub(1) else {
         return Vec::new();
@@ -88,7 +91,7 @@ pub(super) fn through_edges(signal: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The step of the comb on which all values lie, and how many levels are used.
+/// The step of which all values are multiples, and the number of used levels.
 fn comb(signal: &[f64]) -> Option<(f64, usize)> {
     let mut levels: Vec<f64> = Vec::new();
     for value in signal {

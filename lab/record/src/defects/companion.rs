@@ -5,11 +5,11 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Another signal of the record: the size of its movement, compared with its noise.
+/// The movement of another signal of the record, compared with its noise.
 pub(super) struct Companion {
     sums: Vec<f64>,
     noise: f64,
-    /// Usual distance between two neighbouring means, by the length of the means.
+    /// Usual distance between two neighbouring means, for each length of the means.
     usual: RefCell<BTreeMap<usize, f64>>,
 }
 
@@ -30,7 +30,7 @@ impl Companion {
         }
     }
 
-    /// The mean over so many samples, less the first one.
+    /// The mean over `length` samples, minus the first sample.
     pub(super) fn mean(&self, from: usize, length: usize) -> f64 {
         (self.sums[from + length] - self.sums[from]) / length as f64
     }
@@ -48,7 +48,7 @@ impl Companion {
         usual
     }
 
-    /// Its means over the fifths of a stretch, and their noise.
+    /// The means over the fifths of an interval, and their noise.
     pub(super) fn parts(&self, stretch: &Range<usize>) -> ([f64; FEW], f64) {
         let border = |part: usize| stretch.start + part * stretch.len() / FEW;
         let mean = |part: usize| self.mean(border(part), border(part + 1) - border(part));
@@ -56,8 +56,9 @@ impl Companion {
         (std::array::from_fn(mean), noise)
     }
 
-    /// Whether it moves in the middle of the stretch, at this share of its usual speed. The first and
-    /// the last fifth are left out: the response to an earlier command may still settle there.
+    /// Whether the signal moves in the middle of the interval, with at least this fraction of its
+    /// usual speed. The first and last fifths are excluded, because the response to an earlier
+    /// command may not have settled there.
     pub(super) fn moves(&self, stretch: &Range<usize>, share: f64) -> bool {
         let (means, noise) = self.parts(stretch);
         let [first, second] = [means[2] - means[1], means[3] - means[2]].map(f64::abs);
@@ -66,7 +67,7 @@ impl Companion {
         first.min(second) > 0.0 && moved > CLEAR * noise && 0.5 * moved > share * usual
     }
 
-    /// Its travel in the first and in the last third of the stretch.
+    /// The travel in the first and in the last third of the interval.
     pub(super) fn ends(&self, stretch: &Range<usize>) -> (f64, f64) {
         let third = stretch.len() / 3;
         let half = third / 2;

@@ -1,8 +1,8 @@
 //! Time stamps that do not state when the samples were taken.
 //!
-//! Uneven samples with correct stamps are resampled and do no harm. But if a logger stamps late,
-//! the stamps are wrong and the samples are evenly spaced. The signals show which is the case:
-//! either the stamps or the row numbers predict a sample better from its neighbours.
+//! Uneven samples with correct time stamps are resampled and do no harm. If a logger stamps late,
+//! the samples are evenly spaced, but their time stamps are wrong. The signals distinguish the two
+//! cases. Either the time stamps or the row numbers predict a sample better from its neighbours.
 
 use super::Found;
 use crate::scale::{spread, BETTER, FRACTION, MANY, TOLD};
@@ -35,7 +35,7 @@ pub(super) fn find(time: &[f64], columns: &[&Column]) -> Option<Found> {
     })
 }
 
-/// Deviation of each stamp from the even ones around it, in steps; `None` near a gap.
+/// Deviation of each time stamp from even spacing around it, in steps; `None` near a gap.
 fn shifts(time: &[f64], step: f64) -> Vec<Option<f64>> {
     let at = |i: usize| -> Option<f64> {
         let from = i.checked_sub(MANY)?;
@@ -66,7 +66,7 @@ fn rows_predict(time: &[f64], signal: &[f64], step: f64) -> bool {
     by_stamps > BETTER * by_rows
 }
 
-/// RMS error of the signal due to the shifts, as a share of its spread.
+/// RMS error of the signal due to the shifts, as a fraction of its standard deviation.
 fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
     let (mut sum, mut known) = (0.0, 0.0_f64);
     for (i, shift) in shifts.iter().enumerate().skip(2) {
@@ -78,7 +78,7 @@ fn error(shifts: &[Option<f64>], signal: &[f64]) -> f64 {
     (sum / known.max(1.0)).sqrt() / spread(signal)
 }
 
-/// The stretches in which the stamps are wrong by so many steps.
+/// The intervals in which the time stamps are wrong by at least this number of steps.
 fn stretches(shifts: &[Option<f64>], least: f64) -> Vec<Range<usize>> {
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (i, shift) in shifts.iter().enumerate() {

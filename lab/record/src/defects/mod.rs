@@ -1,11 +1,10 @@
-//! Faults of the measurement that are visible before any fit.
+//! Defects of the measurement that are detectable before any fit.
 //!
-//! The defects are: a sensor that is constant while the rest moves, a sensor at the end of its
-//! range, samples that jump away and back, steps so coarse that they shape the signal, gaps in
-//! time, and time stamps that jitter. Each is reported with the lines of the file that it affects.
-//! Stretches without a measurement (stuck, clipped) are excluded from the fit, and a straight line
-//! replaces spikes. A defect is *grave* if the conclusion is invalid nevertheless. What is normal
-//! for any sensor (noise, a converter's usual steps, a reference at rest) is not a defect.
+//! The defects are stuck sensors, clipped signals, spikes, coarse steps, gaps in time, and jitter
+//! of the time stamps. Each defect is reported with the affected lines of the file. Intervals
+//! without a measurement (stuck, clipped) are excluded from the fit, and a straight line replaces
+//! spikes. A defect is *grave* if the conclusion is invalid nevertheless. Normal properties of a
+//! sensor (noise, the usual steps of a converter, a reference at rest) are not defects.
 
 mod clipping;
 mod coarse;
@@ -30,17 +29,18 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DefectKind {
-    /// A flat top while the other end of the transmission continues: the end of the sensor's range.
+    /// A plateau at the end of the sensor range, while the other end of the transmission continues
+    /// to move.
     Clipping,
-    /// The steps of the sensor are coarse against its signal.
+    /// The steps of the sensor are coarse compared with its signal.
     Quantisation,
     /// Time stamps that do not state when the samples were taken.
     Jitter,
     /// Rows are missing.
     Gap,
-    /// Bit for bit the same value, although the rest of the record moves.
+    /// The value is bit-identical while the other signals move.
     Stuck,
-    /// A few samples that jump away from the signal and back.
+    /// A few samples jump away from the signal and back.
     Spike,
 }
 
@@ -64,19 +64,20 @@ impl DefectKind {
 pub struct Defect {
     /// The kind of the defect.
     pub kind: DefectKind,
-    /// The column: its name in the file for time, input and output, otherwise the channel's name.
+    /// Name of the column in the file for time, input and output, otherwise the name of the
+    /// channel.
     pub channel: String,
-    /// First and last line of each stretch, counted from 1.
+    /// First and last line of each interval, counted from 1.
     pub ranges: Vec<[usize; 2]>,
-    /// One sentence.
+    /// Description of the defect in one sentence.
     pub message: String,
-    /// Whether it invalidates conclusions from this column.
+    /// Whether the defect invalidates conclusions from this column.
     #[serde(skip)]
     pub grave: bool,
-    /// Whether the stretches contain no measurement and are excluded from the fit.
+    /// Whether the intervals contain no measurement and are excluded from the fit.
     #[serde(skip)]
     pub left_out: bool,
-    /// The stretches as samples of the record.
+    /// The intervals as samples of the record.
     #[serde(skip)]
     pub samples: Vec<Range<usize>>,
 }
@@ -84,11 +85,11 @@ pub struct Defect {
 /// The data for the detectors.
 pub(super) struct Measured<'a> {
     pub(super) table: &'a Table,
-    /// Name of the time's column; `None` if time comes from the row number.
+    /// Name of the time column; `None` if the time is computed from the row number.
     pub(super) clock: Option<&'a str>,
     /// Input, output, channels.
     pub(super) columns: Vec<&'a Column>,
-    /// For each channel, the columns whose sum or difference it is; none if it is a column.
+    /// For each channel that is a sum or difference, its columns; otherwise empty.
     pub(super) parts: Vec<Vec<Vec<f64>>>,
 }
 
@@ -158,8 +159,8 @@ pub(super) fn find<'a>(measured: &Measured<'a>) -> Vec<Defect> {
 }
 
 impl Record {
-    /// The steps of each column from a coarse sensor: its index, 0 for the input and then the
-    /// channels, and its steps.
+    /// Index and steps of each column from a coarse sensor. Index 0 is the input, and the channels
+    /// follow.
     pub fn steps(&self) -> Vec<(usize, Steps)> {
         let output = Companion::new(&self.output.values);
         let columns = std::iter::once(&self.input).chain(&self.channels);
@@ -169,7 +170,7 @@ impl Record {
             .collect()
     }
 
-    /// The record with a line through the edges of those steps.
+    /// The record with linear interpolation between the edges of these steps.
     pub fn without_steps(&self) -> Self {
         let mut finer = self.clone();
         for (place, _) in self.steps() {
@@ -183,7 +184,7 @@ impl Record {
     }
 }
 
-/// A signal with a line through some stretches.
+/// A signal with a straight line in some intervals.
 pub fn bridged<'a, 'b>(
     signal: &'a [f64],
     stretches: impl IntoIterator<Item = &'b Range<usize>>,
@@ -211,7 +212,7 @@ struct Found {
 }
 
 impl Found {
-    /// `most` is the share of the record that may be left out for it.
+    /// `most` is the fraction of the record that may be excluded because of the defect.
     fn named(self, kind: DefectKind, column: &str, lines: &[usize], most: f64) -> Defect {
         let line = |sample: usize| lines.get(sample).copied().unwrap_or(sample + 2);
         let range = |s: &Range<usize>| [line(s.start), line(s.end.max(s.start + 1) - 1)];
@@ -228,7 +229,7 @@ impl Found {
     }
 }
 
-/// A sum or difference is constant if its columns move together; it is stuck only if one of its
+/// A sum or difference is constant if its columns move together. It is stuck only if one of its
 /// columns is stuck.
 fn stuck(
     (column, values): (&Column, &[f64]),

@@ -9,13 +9,13 @@ use super::{share, Found};
 use crate::scale::{quantile, steps, times, usual, FEW, FRACTION, GRAVE, LEAP, MANY};
 use std::ops::Range;
 
-/// A spike ends within this share of its height from where it began.
+/// At its end, a spike is within this fraction of its height of its initial value.
 const BACK: f64 = 0.25;
 
-/// A signal and its leaps.
+/// A signal and its jumps.
 pub(super) struct Leaps<'a> {
     signal: &'a [f64],
-    /// The step from which a leap begins.
+    /// Size of a step from which it is a jump.
     leap: f64,
     /// The candidates for a spike.
     candidates: Vec<Range<usize>>,
@@ -64,7 +64,7 @@ impl<'a> Leaps<'a> {
         found
     }
 
-    /// The sample at which the signal is back from a leap.
+    /// The sample at which the signal has returned from a jump.
     fn back_from(&self, start: usize, usual: f64) -> Option<usize> {
         let origin = self.signal[start - 1];
         let mut height = f64::INFINITY;

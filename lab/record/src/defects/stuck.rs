@@ -1,10 +1,10 @@
 //! A sensor that is constant while the measured quantity moves.
 //!
-//! A run of bit-identical values alone proves nothing: references rest, encoders wait for the next
-//! count, dry friction without noise is flat. The sensor is stuck if the other signals move during
-//! the run, and if either the sensor's noise disappears with it or the signal jumps at its end,
-//! further than it ever moves in one sample. If most of the record consists of such runs, the
-//! signal is flat by nature.
+//! A run of bit-identical values by itself proves nothing. References rest, encoders wait for the
+//! next count, and dry friction without noise is flat. Two conditions identify a stuck sensor. The
+//! other signals move during the run. In addition, the sensor noise disappears during the run, or
+//! the signal jumps at its end further than it ever moves in one sample. If most of the record
+//! consists of such runs, the signal is flat by nature.
 
 use super::companion::Companion;
 use super::{share, Found};
@@ -13,8 +13,8 @@ use crate::scale::{
 };
 use std::ops::Range;
 
-/// Share of their usual speed at which others have to move where only a leap tells: a reference may
-/// well rest while its rig settles.
+/// Fraction of their usual speed with which the other signals must move if a jump is the only sign.
+/// A reference may rest while its rig settles.
 const MOVING: f64 = 0.3;
 
 pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Found> {
@@ -53,7 +53,7 @@ struct Judge<'a> {
     usual: Option<f64>,
     /// Longest run that noise could cause; `None` if the signal has no noise.
     by_noise: Option<f64>,
-    /// Longest run that is not suspect.
+    /// Longest run that is not suspicious.
     innocent: usize,
     low: f64,
     high: f64,

@@ -1,9 +1,10 @@
 //! JSON: an array of records, one record per line, or an object of columns.
 //!
-//! A record is an object; a nested value is named by its path, `pose.x` or `pose.0`. A row is an
-//! array in the order of names next to it or in `--names`. The table may be within other data, as
-//! long as there is one. Its cells become text, so time stamps, gaps and faults are treated as in
-//! any other text. A line is a record.
+//! A record is an object. The name of a nested value is its path, such as `pose.x` or `pose.0`. A
+//! row is an array, whose names are next to it or in `--names`. The file may contain other data in
+//! addition to the table, but only one table. The cells become text, so time stamps, gaps and
+//! errors are treated as in any other text. The line number of an error is the number of the
+//! record.
 
 mod value;
 
@@ -17,13 +18,13 @@ use value::{values, without_nan, Cell, Json};
 #[derive(Default)]
 pub(super) struct Table {
     columns: Vec<Column>,
-    /// Whether its columns have the names that were given.
+    /// Whether the names of the columns were given.
     pub(super) is_given: bool,
     pub(super) notes: Vec<String>,
 }
 
 struct Column {
-    /// Its whole name, `run.signals.x`.
+    /// The whole name, such as `run.signals.x`.
     path: String,
     unit: Option<String>,
     cells: Vec<Cell>,
@@ -36,7 +37,7 @@ struct Rows {
     names: Vec<String>,
 }
 
-/// Whether a text is JSON: names of columns do not begin so.
+/// Whether a text is JSON. Column names do not begin like JSON.
 pub(super) fn is_json(text: &str) -> bool {
     let mut signs = text.chars().filter(|c| !c.is_whitespace());
     match signs.next() {
@@ -46,7 +47,7 @@ pub(super) fn is_json(text: &str) -> bool {
     }
 }
 
-/// The table of a text; `names` are those of rows that have none.
+/// The table of a text. `names` are the column names if the rows have none.
 pub(super) fn read(text: &str, names: &[String]) -> Result<Table, RecordError> {
     let mut notes = Vec::new();
     let mut all = values(&without_nan(text), &mut notes)?;
@@ -63,7 +64,7 @@ pub(super) fn read(text: &str, names: &[String]) -> Result<Table, RecordError> {
 }
 
 impl Table {
-    /// Name, unit and whole name of each column; a name that two columns share is ignored.
+    /// Name, unit and whole name of each column. A name that two columns share is ignored.
     pub(super) fn names(&self) -> Vec<(String, Option<String>, String)> {
         let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
         let mut count: HashMap<String, usize> = HashMap::new();
@@ -84,7 +85,7 @@ impl Table {
         self.columns.iter().map(|own| own.cells.len()).collect()
     }
 
-    /// The first rows as text, with `;` between the cells; columns that are not used stay blank.
+    /// The first rows as text, with `;` between the cells. Unused columns stay blank.
     pub(super) fn text(&self, rows: usize, used: &[usize]) -> String {
         let mut all = String::new();
         for row in 0..rows {
@@ -199,7 +200,7 @@ fn texts(value: &Json) -> Option<Vec<String>> {
     all.iter().map(text).collect()
 }
 
-/// A column of values without parts.
+/// A column of scalar values.
 fn column(path: String, unit: Option<String>, values: Vec<Json>) -> Option<Column> {
     let cell = |value: Json| match value {
         Json::Cell(cell) => Some(cell),
@@ -209,8 +210,8 @@ fn column(path: String, unit: Option<String>, values: Vec<Json>) -> Option<Colum
     (cells.len() > 1).then_some(Column { path, unit, cells })
 }
 
-/// The column that an object represents: `values` with their `unit`, or values by their number, as
-/// pandas writes them.
+/// The column that an object represents. The object contains `values` with their `unit`, or values
+/// with their row numbers as keys, as pandas writes them.
 fn with_unit(path: &str, mut fields: Vec<(String, Json)>) -> Result<Column, Vec<(String, Json)>> {
     let is_cell = |own: &Json| matches!(own, Json::Cell(_));
     let is_numbered = |(name, own): &(String, Json)| name.parse::<usize>().is_ok() && is_cell(own);
@@ -251,7 +252,7 @@ impl Rows {
         self.rows.len() - usize::from(has_names)
     }
 
-    /// Number of cells, where the first row is an array.
+    /// Number of cells in a row, if the first row is an array.
     fn width(&self) -> Option<usize> {
         match self.rows.first()? {
             Json::List(cells) => Some(cells.len()),
@@ -341,7 +342,7 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
     Ok(table)
 }
 
-/// The values without parts in a value, each with its path.
+/// The scalar values in a value, each with its path.
 fn flatten(path: &str, value: Json, into: &mut Vec<(String, Cell)>) {
     let below = |name: &str| match path {
         "" => name.to_owned(),

@@ -5,14 +5,14 @@ use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
-/// One value with all that is in it.
+/// One value with its contents.
 pub(super) enum Json {
     Cell(Cell),
     List(Vec<Json>),
     Object(Vec<(String, Json)>),
 }
 
-/// A value without parts.
+/// A scalar value.
 #[derive(Clone, Default)]
 pub(super) enum Cell {
     #[default]
@@ -21,7 +21,7 @@ pub(super) enum Cell {
     Text(Box<str>),
 }
 
-/// The values of a text, one after another; if there are several, the last one may be cut off.
+/// The successive values of a text. If there are several values, the last one may be incomplete.
 pub(super) fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, RecordError> {
     let mut all = Vec::new();
     for value in serde_json::Deserializer::from_str(text).into_iter::<Json>() {
@@ -46,7 +46,7 @@ pub(super) fn values(text: &str, notes: &mut Vec<String>) -> Result<Vec<Json>, R
     Ok(all)
 }
 
-/// The text with `null` instead of `NaN`, which Python writes and JSON lacks.
+/// The text with `null` instead of `NaN`, which Python writes although JSON does not allow it.
 pub(super) fn without_nan(text: &str) -> Cow<'_, str> {
     const NAN: &str = "NaN";
     let (mut all, mut copied) = (String::new(), 0);

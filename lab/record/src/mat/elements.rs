@@ -1,22 +1,23 @@
 //! The elements of a MAT-file of version 5 (MATLAB's `save -v6` and `-v7`).
 //!
-//! Source: MathWorks, *MAT-File Format*, chapter 1, "Version 5". A file is a header of 128 bytes
-//! and data elements: a type, a length, the bytes. An element may be compressed; a matrix holds
-//! elements itself. Every length is checked against the number of bytes.
+//! Source: MathWorks, *MAT-File Format*, chapter 1, "Version 5". A file consists of a header of 128
+//! bytes and data elements. Each element has a type, a length and its bytes. An element may be
+//! compressed, and a matrix contains further elements. Every length is checked against the number
+//! of bytes.
 
 use crate::limits::{BYTES, DEPTH};
 use crate::vectors::Value;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 
-/// Why the bytes are no MAT-file.
+/// The reason why the bytes are not a MAT-file.
 type Damage = String;
 
 fn damaged(what: &str) -> Damage {
     format!("the file is damaged: {what}")
 }
 
-/// The order of the bytes.
+/// The byte order.
 #[derive(Clone, Copy)]
 struct Order {
     little: bool,
@@ -51,7 +52,7 @@ impl Element<'_> {
     }
 }
 
-/// The elements one after the other.
+/// The successive elements.
 struct Elements<'a> {
     rest: &'a [u8],
     order: Order,
@@ -249,7 +250,7 @@ fn characters(element: &Element<'_>, order: Order, dims: &[usize]) -> Vec<String
     rows_of(&letters, dims)
 }
 
-/// The rows of letters that stand column by column.
+/// The rows of letters that are stored column by column.
 pub(super) fn rows_of(letters: &[char], dims: &[usize]) -> Vec<String> {
     let rows = dims.first().copied().unwrap_or(0).min(letters.len());
     let row = |row: usize| {
@@ -259,7 +260,7 @@ pub(super) fn rows_of(letters: &[char], dims: &[usize]) -> Vec<String> {
     (0..rows).map(row).collect()
 }
 
-/// Numbers, which may be stored smaller than their class.
+/// Numbers, which may be stored in a smaller type than their class.
 fn numbers(element: &Element<'_>, order: Order) -> Result<Vec<f64>, Damage> {
     fn all<const N: usize>(bytes: &[u8], order: Order, of: impl Fn([u8; N]) -> f64) -> Vec<f64> {
         let chunks = bytes.chunks_exact(N);

@@ -1,9 +1,9 @@
-//! The variables of a MAT-file of version 7.3: HDF5 after a header of MATLAB.
+//! The variables of a MAT-file of version 7.3, which is an HDF5 file after a MATLAB header.
 //!
-//! A numeric array is a data set with its dimensions in reverse order, so its values are in
+//! A numeric array is a data set whose dimensions are in reverse order. Its values are therefore in
 //! MATLAB's order, column by column. A structure is a group. An array of structures is a group
-//! whose fields are lists of references, and so is a cell array; the referenced values are in the
-//! group `#refs#`. `MATLAB_class` distinguishes the two.
+//! whose fields are lists of references. A cell array is also a list of references. The referenced
+//! values are in the group `#refs#`. The attribute `MATLAB_class` states the class.
 //!
 //! Source: MathWorks, *MAT-File Versions*, "Version 7.3", and the documentation of `hdf5storage`
 //! on MATLAB's attributes. The bytes are read by the crate `hdf5-reader`.
@@ -17,10 +17,10 @@ use hdf5_reader::reference::read_object_references;
 use hdf5_reader::{Dataset, Datatype, Hdf5File, OpenOptions};
 use std::collections::HashMap;
 
-/// Maximum size to which a byte of the file is unpacked \[bytes\]: deflate packs no more into one
-/// byte. A file that states larger arrays cannot contain their data.
+/// Maximum size to which one byte of the file is unpacked \[bytes\], which is the maximum ratio of
+/// deflate. A file that states larger arrays cannot contain their data.
 const PACKED: usize = 1032;
-/// MATLAB's internal groups: the targets of references, and its objects.
+/// MATLAB's internal groups, which contain the targets of references and objects.
 const REFERRED: &str = "#refs#";
 
 /// The targets of references.
@@ -30,10 +30,10 @@ enum Object {
 }
 
 struct File {
-    /// By address; empty of a file without references.
+    /// The targets by address; empty for a file without references.
     referred: HashMap<u64, Object>,
     offset_size: u8,
-    /// Bytes in memory and in the arrays of the file, and objects, that may still be read.
+    /// Number of bytes and objects that may still be read.
     room: usize,
     packed: usize,
     left: usize,
@@ -97,7 +97,7 @@ impl File {
         Ok(())
     }
 
-    /// A group as a structure, or as an array of them.
+    /// A group as a structure, or as an array of structures.
     fn structure(&mut self, group: &Group, depth: usize) -> Result<Value, Error> {
         self.counted()?;
         let class = group.attribute("MATLAB_class").ok();
@@ -211,7 +211,7 @@ fn class_of(data: &Dataset) -> String {
         .unwrap_or_default()
 }
 
-/// What is neither an array nor a structure: an object, unless it is a function.
+/// A value that is neither an array nor a structure. It is an object, unless it is a function.
 fn of_class(class: String) -> Value {
     match class.as_str() {
         "function_handle" | "cell" | "struct" => Value::Other,

@@ -13,7 +13,7 @@ pub(super) struct Book<'a> {
     bytes: &'a [u8],
     /// The names of all parts, and their entries in the directory of the archive.
     parts: Vec<(String, usize)>,
-    /// How many bytes may still be unpacked.
+    /// Number of bytes that may still be unpacked.
     left: u64,
     pub(super) sheets: Vec<Named>,
     strings: Vec<String>,
@@ -27,11 +27,11 @@ pub(super) struct Named {
     part: String,
 }
 
-/// A cell that is not empty; row and column count from 0.
+/// A cell that is not empty. Row and column are counted from 0.
 pub(super) struct Cell<'a> {
     pub(super) row: usize,
     pub(super) column: usize,
-    /// Without tabs and line ends.
+    /// The text without tabs and line ends.
     pub(super) text: &'a str,
 }
 
@@ -87,7 +87,7 @@ impl<'a> Book<'a> {
         Ok(bytes)
     }
 
-    /// The relationships of a part, or with an empty name those of the package.
+    /// The relationships of a part. An empty name means the package.
     fn relations(&mut self, of: &str) -> Result<Vec<Relation>, Failure> {
         let (folder, name) = of.rsplit_once('/').unwrap_or(("", of));
         let inside = |part: String| part.trim_start_matches('/').to_owned();
@@ -193,7 +193,7 @@ impl<'a> Book<'a> {
     }
 }
 
-/// A cell as it stands in its part.
+/// A cell as it is stored in its part.
 #[derive(Default)]
 struct Written {
     kind: String,
@@ -212,7 +212,8 @@ impl Written {
     }
 }
 
-/// A text with or without formats: that of `v` and `t`, but not of `rPh`, which is its pronunciation.
+/// A text with or without formats. It includes the text of `v` and `t`, but not of `rPh`
+/// (pronunciation).
 #[derive(Default)]
 struct Text {
     own: String,
@@ -241,7 +242,7 @@ struct Place {
 }
 
 impl Place {
-    /// Goes to a row: the one that it names, or the next.
+    /// Moves to the row with this name or, without a name, to the next row.
     fn row(&mut self, name: Option<&str>) -> Result<(), Failure> {
         self.column = 0;
         self.row = match name {
@@ -251,7 +252,7 @@ impl Place {
         Ok(())
     }
 
-    /// Goes to a cell: the one that it names, such as `AB12`, or the next.
+    /// Moves to the cell with this name, such as `AB12` or, without a name, to the next cell.
     fn cell(&mut self, name: Option<&str>) -> Result<(), Failure> {
         self.column += 1;
         if let Some(name) = name {

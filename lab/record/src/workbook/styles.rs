@@ -1,4 +1,4 @@
-//! What a number of a workbook means: itself, a date or a duration.
+//! The meaning of a number in a workbook: a plain number, a date or a duration.
 
 use super::xml::{attribute, pieces, Piece};
 use super::Failure;
@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 const DAY: f64 = 86_400_000_000.0;
 
-/// How a cell shows its number.
+/// The style in which a cell shows its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Style {
     Number,
@@ -52,7 +52,7 @@ fn of_built_in(id: u32) -> Style {
     }
 }
 
-/// The style of a format code: a letter of a date or a time outside quotes and brackets.
+/// The style of a format code, from the letters for dates and times outside quotes and brackets.
 fn of_code(code: &str) -> Style {
     let mut rest = code.chars();
     while let Some(letter) = rest.next() {
@@ -76,7 +76,8 @@ fn of_code(code: &str) -> Style {
     Style::Number
 }
 
-/// A number as a text: a time stamp to the microsecond, which is the resolution of days in a double.
+/// A number as text. Time stamps have a resolution of one microsecond, which is the resolution of
+/// days in a double.
 pub(super) fn written(number: f64, style: Style, is_1904: bool) -> String {
     let micros = (number * DAY).round();
     let days = (micros / DAY).floor();
@@ -103,8 +104,8 @@ pub(super) fn written(number: f64, style: Style, is_1904: bool) -> String {
     text
 }
 
-/// The date of a day. Day 1 is 1900-01-01 or 1904-01-02; the first calendar has a 1900-02-29, which
-/// is its day 60.
+/// The date of a day. Day 1 is 1900-01-01 or 1904-01-02. The calendar that starts in 1900 has a
+/// 1900-02-29, which is its day 60.
 fn date(days: i64, is_1904: bool) -> (i64, i64, i64) {
     let (mut year, mut left) = match is_1904 {
         true => (1904, days),

@@ -1,4 +1,4 @@
-//! Elements and texts of an XML part, in their order.
+//! Elements and texts of an XML part, in order.
 
 use super::{damaged, Failure};
 use crate::encoding;
@@ -7,7 +7,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 use std::borrow::Cow;
 
-/// What follows in a part. Names have no prefix.
+/// One piece of an XML part. Names have no prefix.
 pub(super) enum Piece<'a> {
     Start(&'a str, &'a BytesStart<'a>),
     End(&'a str),
@@ -18,7 +18,7 @@ fn bad(error: impl std::fmt::Display) -> Failure {
     damaged(error.to_string())
 }
 
-/// Gives each piece of a part to `take`.
+/// Passes each piece of a part to `take`.
 pub(super) fn pieces(
     part: &[u8],
     mut take: impl FnMut(Piece<'_>) -> Result<(), Failure>,

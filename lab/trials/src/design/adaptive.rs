@@ -1,11 +1,12 @@
-//! Gains of the adaptive law in lag form that its constructor and its certificate admit.
+//! Gains of the adaptive law in first-order form that its constructor and its certificate admit.
 //!
-//! On a static plant the lag form is an integral: with z = s/(p + lambda) and s = (p + lambda)/p·e
-//! its command is `lambda·beta_hat·(k + delta_hat/epsilon)/p·e` near zero. So `h·lambda·g⁺·(k +
-//! delta_max/epsilon)` is the integral gain of one sample: with one sample of delay, the loop is
-//! unstable above two, and the constructor admits one. Here it is one half, which is a gain margin
-//! of four. lambda is a fiftieth of this bandwidth, similar to Table 2, and k and delta_max/epsilon
-//! contribute half of the gain each.
+//! On a static plant, the first-order form is an integral controller. With z = s/(p + lambda) and s
+//! = (p + lambda)/p·e, its command near zero is `lambda·beta_hat·(k + delta_hat/epsilon)/p·e`.
+//! Therefore `h·lambda·g⁺·(k + delta_max/epsilon)` is the integral gain of one sample. With one
+//! sample of delay, the loop is unstable if this gain exceeds two, and the constructor allows at
+//! most one. The design uses one half, which gives a gain margin of four. lambda is a fiftieth of
+//! this bandwidth, similar to Table 2, and k and delta_max/epsilon contribute half of the gain
+//! each.
 
 use super::plant::Plant;
 use crate::gains::Known;
@@ -13,18 +14,18 @@ use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Fallback, Form, Lim
 use bowden_bound::{Interval, PeakSampled, Plant as Bounds};
 use serde::Serialize;
 
-/// What the drive's gain is known to, as a share.
+/// Relative uncertainty of the drive gain.
 const DRIVE: f64 = 0.02;
 
-/// The law, or why there is none.
+/// The adaptive law, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdaptiveDesign {
-    /// Step of the law \[s\]: the shortest multiple of the sample that is longer than the delay.
+    /// Step of the law \[s\]: the smallest multiple of the sampling period that exceeds the delay.
     pub step: f64,
     /// The law is called on every Nth sample; N is this number.
     pub every: usize,
-    /// Whether the plant's delay fits into one sample at the stated rate, as the lag form requires;
-    /// if not, the law runs at `step`.
+    /// Whether the delay of the plant fits into one sample at the stated rate, as the first-order
+    /// form requires. Otherwise the law runs at `step`.
     pub at_the_rate: bool,
     /// h·lambda·g⁺·(k + delta_max/epsilon), at most one.
     pub loop_gain: f64,
@@ -32,13 +33,13 @@ pub struct AdaptiveDesign {
     pub settings: Option<AdaptiveSettings<f64, 0>>,
     /// The reason why no gains are admissible.
     pub refused: Option<String>,
-    /// Bound of abs(e) \[N·m\], from the proof if there is one, otherwise from the sampled peak
+    /// Bound on abs(e) \[N·m\], from the proof if there is one, otherwise from the sampled peak
     /// certificate.
     pub certificate: Option<f64>,
     /// Whether `bowden certify` proves the file as written; the certificate then includes limits,
-    /// slew rate and roundings.
+    /// slew rate and rounding errors.
     pub proved: bool,
-    /// The reason why it does not, although there is a certificate.
+    /// The reason why `bowden certify` does not prove the file, although there is a certificate.
     pub unproved: Option<String>,
     /// The reason why there is no certificate.
     pub uncertified: Option<String>,
@@ -48,7 +49,7 @@ pub struct AdaptiveDesign {
     pub assumed: Vec<String>,
 }
 
-/// What the loop around the law is like.
+/// The loop around the adaptive law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Around {
     pub(super) rate: f64,
@@ -56,11 +57,11 @@ pub(super) struct Around {
     pub(super) drive_gain: f64,
     pub(super) limits: Limits<f64>,
     pub(super) fallback: Fallback<f64>,
-    /// Greatest rate of the reference \[N·m/s\], if there is one.
+    /// Largest rate of the reference \[N·m/s\], if there is one.
     pub(super) reference_rate: Option<f64>,
 }
 
-/// The interval of a parameter; whether it was assumed.
+/// The interval of a parameter, and whether the interval was assumed.
 fn interval(plant: &Plant, name: &str, value: f64) -> (Interval<f64>, bool) {
     match plant.about.intervals.get(name) {
         Some(&[low, high]) if low <= value && value <= high => (Interval { low, high }, false),
@@ -217,7 +218,7 @@ fn settings(
     Ok(settings)
 }
 
-/// What the model and its record say of the plant.
+/// The ranges of the plant from the model and its record.
 fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String> {
     let super::Slopes { least, greatest } = plant.slopes;
     let Some(reference_rate) = around.reference_rate else {
@@ -247,7 +248,8 @@ fn known(plant: &Plant, around: &Around, boxes: &Boxes) -> Result<Known, String>
     })
 }
 
-/// The sampled peak certificate, with an accumulated error that may be as large as it needs.
+/// The sampled peak certificate, and the settings with a limit on the accumulated error that is
+/// large enough.
 fn certificate(
     known: &Known,
     settings: AdaptiveSettings<f64, 0>,

@@ -1,9 +1,10 @@
-//! The sampled loop of a gain behind a delay: margins, overshoot, settling.
+//! The sampled loop of a static gain with a delay: margins, overshoot, settling time.
 //!
-//! With the plant's gain and the sample time as units, `y(k) = u(k - D)` and `C(z) = k_p + k_i/(1 -
-//! 1/z) + k_d·(1 - 1/z)/(tau + 1 - tau/z)`, which is what [`Pid::step`](bowden::control::Pid::step)
-//! computes. The hold is part of the sampled plant, so the margins are exact. Source: K. J. Åström,
-//! B. Wittenmark, *Computer-Controlled Systems*, 3rd ed., 1997, 3.3 and 4.
+//! With the plant's gain and the sample time as units, `y(k) = u(k - D)` and
+//! `C(z) = k_p + k_i/(1 - 1/z) + k_d·(1 - 1/z)/(tau + 1 - tau/z)`, which is what
+//! [`Pid::step`](bowden::control::Pid::step) computes. The hold is part of the sampled plant, so
+//! the margins are exact. Source: K. J. Åström, B. Wittenmark, *Computer-Controlled Systems*, 3rd
+//! ed., 1997, 3.3 and 4.
 
 use std::f64::consts::PI;
 
@@ -41,7 +42,8 @@ impl Gains {
         }
     }
 
-    /// Real and imaginary part of the loop behind `delay` samples at `w` \[rad/sample\].
+    /// Real and imaginary part of the open loop with `delay` samples of delay at `w`
+    /// \[rad/sample\].
     fn at(&self, delay: f64, w: f64) -> (f64, f64) {
         // 1 - 1/z = 2·sin²(w/2) + i·sin(w).
         let (re, im) = (2.0 * (0.5 * w).sin().powi(2), w.sin());
@@ -61,16 +63,16 @@ impl Gains {
 /// The distance of a loop from instability.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Margins {
-    /// Gain margin: the factor by which the loop's gain may increase.
+    /// Gain margin: the factor by which the loop gain may increase.
     pub gain: f64,
     /// Phase margin \[deg\].
     pub phase: f64,
-    /// Smallest real part of the open loop: above -1, no sequence of slopes between zero and the
-    /// largest one makes the loop unstable (circle criterion).
+    /// Smallest real part of the open loop. If it exceeds -1, no sequence of slopes between zero
+    /// and the largest slope makes the loop unstable (circle criterion).
     pub least_real: f64,
 }
 
-/// The margins behind `delay` samples.
+/// The margins with `delay` samples of delay.
 pub(super) fn margins(gains: Gains, delay: usize) -> Margins {
     let delay = delay as f64;
     // Points of the sweep: 24 in a half turn of the delay's phase.
@@ -112,7 +114,7 @@ pub(super) fn margins(gains: Gains, delay: usize) -> Margins {
     found
 }
 
-/// Where a function changes its sign between `low` and `high`.
+/// The point between `low` and `high` at which a function changes its sign.
 fn crossing(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
     let below = of(low) < 0.0;
     for _ in 0..60 {
@@ -126,16 +128,17 @@ fn crossing(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// What a step of the reference does.
+/// The response to a reference step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Response {
-    /// Greatest output above the reference, as a share of the step.
+    /// Largest output above the reference, as a fraction of the step.
     pub(super) overshoot: f64,
-    /// After how many samples the output stays within 2 % of the step.
+    /// Number of samples after which the output stays within 2 % of the step.
     pub(super) settled: Option<usize>,
 }
 
-/// The step response after `delay` samples, for a plant with the share `gain` of the largest gain.
+/// The step response with `delay` samples of delay, for a plant whose gain is the fraction `gain`
+/// of the largest gain.
 pub(super) fn response(gains: Gains, delay: usize, gain: f64) -> Response {
     let length = 60 * (delay + 1);
     let mut commands = Vec::with_capacity(length);

@@ -1,8 +1,8 @@
-//! From an identified model to gains: the calculation behind `bowden design`.
+//! Computes gains from an identified model, for `bowden design`.
 //!
 //! The plant is the transmission of the model, with a slope of the output within [`Slopes`], after
-//! a delay. Inertias, springs and dampings are not in the model: their lag must be part of the
-//! given delay. A lag of T counts as a delay of T.
+//! a delay. The model does not contain inertias, springs and dampings. Their lag must be part of
+//! the given delay. A lag of T counts as a delay of T.
 //!
 //! ```
 //! use bowden_trials::design::{design, Question};
@@ -52,12 +52,12 @@ pub(crate) use plant::rises;
 use plant::Plant;
 use serde::Serialize;
 
-/// What is asked.
+/// The input of the design.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// Samples a second \[Hz\].
+    /// Sampling rate \[Hz\].
     pub rate: f64,
-    /// From the command to its measured torque \[s\].
+    /// Delay from a command to its effect in the measured torque \[s\].
     pub delay: f64,
     /// Noise of the measured torque \[N·m rms\].
     pub noise: f64,
@@ -65,19 +65,19 @@ pub struct Question {
     pub drive_gain: f64,
 }
 
-/// Most samples of delay: a slower rate has the same loop.
+/// Maximum number of samples of delay. A slower rate gives the same loop.
 const MOST_DELAY: f64 = 1000.0;
 
-/// The derivative is worth its noise if the integral gain grows by this factor.
+/// The derivative is used if it increases the integral gain by at least this factor.
 const WORTH: f64 = 1.1;
 
-/// Why there is neither a reference nor a certificate.
+/// The reason why there is neither a reference nor a certificate.
 pub(crate) const TOO_SHORT: &str = "the recorded stroke is shorter than the hysteresis, so no torque is reached in both directions and there is no reference; record a larger stroke";
 
-/// Gain margin that a loop must keep whose every step is the longest one.
+/// Gain margin that the loop must keep if every step has the longest `dt`.
 const LONG_MARGIN: f64 = 1.4;
 
-/// Steps that are tried as the longest one \[samples\].
+/// Values that are tried as the longest `dt` \[samples\].
 const LONGER: [f64; 6] = [1.25, 1.5, 2.0, 3.0, 4.0, 5.0];
 
 /// The gains of a PI or PID, and the properties of its loop.
@@ -91,11 +91,11 @@ pub struct PidDesign {
     pub k_d: f64,
     /// Time constant of the derivative's filter \[s\].
     pub derivative_time: f64,
-    /// Margins at the loop's slope.
+    /// Margins at the design slope.
     pub margins: Margins,
-    /// Overshoot after a step of the reference, as a share of the step.
+    /// Overshoot after a reference step, as a fraction of the step.
     pub overshoot: f64,
-    /// Settling time of such a step to within 2 % \[s\].
+    /// Settling time after such a step, to within 2 % \[s\].
     pub settled: Option<f64>,
 }
 
@@ -128,9 +128,9 @@ pub struct Bounds {
     pub low: f64,
     /// Largest command \[command unit\] of the record.
     pub high: f64,
-    /// Smallest slew rate that does not limit the response to noise, `2·(k_p +
-    /// k_i/rate)·6·noise·rate`; with a derivative that helps, `k_p` is increased by
-    /// `k_d/(derivative_time + 1/rate)` \[command unit/s\].
+    /// Smallest slew rate that does not limit the response to noise,
+    /// `2·(k_p + k_i/rate)·6·noise·rate` \[command unit/s\]. If a derivative helps, `k_p` is
+    /// increased by `k_d/(derivative_time + 1/rate)`.
     pub slew_of_noise: f64,
     /// Largest rate of the input in the record \[command unit/s\].
     pub slew_of_record: f64,
@@ -139,21 +139,21 @@ pub struct Bounds {
     /// Largest rate of a reference for which the input is no faster than in the record \[N·m/s\];
     /// `None` if the smallest slope is below a hundredth of the largest.
     pub reference_rate: Option<f64>,
-    /// Outputs that the recorded inputs reach in both directions \[N·m\]; `None` if the stroke of
-    /// the record is shorter than the hysteresis.
+    /// Range of outputs that the recorded inputs reach in both directions \[N·m\]; `None` if the
+    /// stroke of the record is shorter than the hysteresis.
     pub output: Option<[f64; 2]>,
     /// Longest `dt` \[s\].
     pub longest_dt: f64,
-    /// Number of bad samples in a row after which the safe command is applied.
+    /// Number of consecutive bad samples after which the safe command is applied.
     pub fallback_after: u32,
     /// The safe command \[command unit\].
     pub fallback_command: f64,
 }
 
-/// The answer.
+/// The result of the design.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Designed {
-    /// Smallest and largest slope of the output over the proximal torque.
+    /// Smallest and largest slope of the output versus the proximal torque.
     pub slopes: Slopes,
     /// The slope for which the gains are designed: the largest magnitude.
     pub design_slope: f64,
@@ -175,13 +175,13 @@ pub struct Designed {
     pub adaptive: AdaptiveDesign,
     /// Notes for the user.
     pub notes: Vec<String>,
-    /// The same data as a file.
+    /// The same data as a gains file.
     #[serde(skip)]
     pub gains: GainsFile,
 }
 
 impl Question {
-    /// Refuses an invalid rate, delay, noise or gain.
+    /// Rejects an invalid rate, delay, noise or gain.
     ///
     /// # Errors
     /// A message with the option.
@@ -202,7 +202,7 @@ impl Question {
         Ok(())
     }
 
-    /// What the gains are for, with the name of the model's file without folders.
+    /// The conditions of the design, with the name of the model file without folders.
     fn of_model(&self, label: &str) -> DesignedFor {
         let name = std::path::Path::new(label).file_name();
         DesignedFor {
@@ -216,9 +216,9 @@ impl Question {
     }
 }
 
-/// Samples after which a command is first measured: it is out right after its sample, and a
-/// torque that arrives with a sample is seen with the next one. This is the delay and half a
-/// sample of hold in the mean, and never less than the delay.
+/// Number of samples after which the effect of a command is first measured. A command is sent right
+/// after its sample, and a torque that arrives with a sample is measured at the next sample. On
+/// average, this is the delay plus half a sample for the hold. It is never less than the delay.
 fn samples(delay: f64, step: f64) -> usize {
     (delay / step + 1e-9).floor() as usize + 1
 }
@@ -304,7 +304,7 @@ pub fn design(text: &str, label: &str, asked: &Question) -> Result<Designed, Str
     })
 }
 
-/// The file that is proved, if there is one; the law with it.
+/// The gains file that is proved, if there is one. The law is changed with it.
 fn promised(gains: GainsFile, adaptive: &mut AdaptiveDesign) -> GainsFile {
     if adaptive.certificate.is_none() {
         return gains;
@@ -324,7 +324,7 @@ fn promised(gains: GainsFile, adaptive: &mut AdaptiveDesign) -> GainsFile {
     }
 }
 
-/// What keeps a controller from harm.
+/// Limits and fallback of a controller.
 #[derive(Debug, Clone, Copy)]
 struct Safety {
     limits: Limits<f64>,
@@ -362,7 +362,7 @@ impl Safety {
     }
 }
 
-/// A model file, with the place where it is wrong.
+/// Reads a model file. An error contains its position.
 fn read(text: &str, label: &str) -> Result<ModelFile, String> {
     if text.trim().is_empty() {
         return Err(format!(
@@ -382,7 +382,7 @@ fn read(text: &str, label: &str) -> Result<ModelFile, String> {
 /// The units of the plant and of the sample.
 #[derive(Debug, Clone, Copy)]
 struct Units {
-    /// Slope of the measured torque in the command \[N·m/command unit\].
+    /// Slope of the measured torque versus the command \[N·m/command unit\].
     gain: f64,
     h: f64,
 }
@@ -444,8 +444,8 @@ fn bounds(
     })
 }
 
-/// Number of bad samples in a row until the safe command is applied: 20 ms, or twice the delay
-/// \[s\], at the given rate.
+/// Number of consecutive bad samples after which the safe command is applied: 20 ms or twice the
+/// delay \[s\], at the given rate.
 fn fallback_after(delay: f64, rate: f64) -> u32 {
     let after = (0.02_f64.max(2.0 * delay) * rate).ceil();
     after.clamp(2.0, 1e6) as u32

@@ -1,6 +1,6 @@
-//! Gains of PI and PID for a static plant behind a delay, within stated margins.
+//! Gains of PI and PID controllers for a static plant with a delay, within stated margins.
 //!
-//! Among all pairs that satisfy the margins, the pair with the largest integral gain is chosen: a
+//! Among all pairs that satisfy the margins, the pair with the largest integral gain is chosen. A
 //! static plant follows a ramp with the error `rate/(k_i·slope)`, and a disturbance decays with the
 //! time constant `1/(k_i·slope)`. Source: K. J. Åström, T. Hägglund, *Advanced PID Control*, 2006,
 //! 6.8 and 7.3 (maximise the integral gain subject to robustness).
@@ -10,13 +10,13 @@ use super::linear::{margins, response, Gains, Margins, Response};
 /// The requirements on the loop at the steepest slope of the plant.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Asked {
-    /// Least gain margin.
+    /// Smallest gain margin.
     pub gain_margin: f64,
     /// Smallest phase margin \[deg\].
     pub phase_margin: f64,
-    /// Largest overshoot after a step of the reference, as a share of the step.
+    /// Largest overshoot after a reference step, as a fraction of the step.
     pub overshoot: f64,
-    /// The real part of the open loop stays above this.
+    /// Lower bound on the real part of the open loop.
     pub least_real: f64,
 }
 
@@ -28,8 +28,8 @@ pub const ASKED: Asked = Asked {
     least_real: -1.0,
 };
 
-/// Longest delay that the search sees \[samples\]; a longer one has the same gains but for
-/// the unit of time.
+/// Longest delay in the search \[samples\]. A longer delay has the same gains in another unit of
+/// time.
 const LONGEST: usize = 48;
 
 /// Gains, and the properties of the loop at the steepest slope of the plant.
@@ -67,7 +67,7 @@ pub(super) fn greatest_integral(rest: Gains, delay: usize) -> f64 {
     greatest(2.0, |k_i| admissible(Gains { k_i, ..rest }, delay))
 }
 
-/// The largest proportional gain without an integral: the gain margin alone bounds it.
+/// The largest proportional gain without an integral, which only the gain margin limits.
 pub(super) fn greatest_proportional() -> f64 {
     1.0 / ASKED.gain_margin
 }
@@ -83,7 +83,8 @@ fn best(candidates: impl Iterator<Item = Gains>, delay: usize) -> Gains {
     best
 }
 
-/// From the delay of the search to the real one, and down until the margins are kept.
+/// Scales the gains from the delay of the search to the real delay, and reduces them until the
+/// margins are satisfied.
 fn scaled(gains: Gains, from: usize, to: usize) -> Gains {
     let ratio = to as f64 / from as f64;
     let mut gains = Gains {
@@ -98,7 +99,7 @@ fn scaled(gains: Gains, from: usize, to: usize) -> Gains {
     gains
 }
 
-/// PI behind `delay` samples.
+/// PI gains for `delay` samples of delay.
 pub(super) fn pi(delay: usize) -> Found {
     let seen = delay.min(LONGEST);
     let grid = (1..=24).map(|k| Gains {
@@ -108,7 +109,7 @@ pub(super) fn pi(delay: usize) -> Found {
     found(scaled(best(grid, seen), seen, delay), delay)
 }
 
-/// PID behind `delay` samples, its filter half as long as the delay.
+/// PID gains for `delay` samples of delay. The time constant of the filter is half of the delay.
 pub(super) fn pid(delay: usize) -> Found {
     let seen = delay.min(LONGEST / 2);
     let tau = (0.5 * seen as f64).max(1.0);

@@ -1,17 +1,18 @@
-//! The data of a model file about the plant: slopes, ranges, intervals.
+//! The plant of a model file: slopes, ranges, intervals.
 
 use bowden::transmission::{Mode, Transmission};
 use bowden_lab::export::{About, ModelFile, TermFile};
 use bowden_lab::record::is_same_unit;
 use serde::Serialize;
 
-/// Smallest and largest slope of the output over the input.
+/// Smallest and largest slope of the output versus the input.
 ///
-/// With zeta = eta in the direction of the motion, and p = rho times the path, `d zeta/dp = 1 -
-/// zeta^n` while loading and `1 + (2·sigma - 1)·abs(zeta)^n` while unloading. With abs(zeta) <= 1
-/// and 2·sigma >= 1 the slope of eta over the input lies in `0..=rho·max(1, 2·sigma)`, so in torque
-/// mode (5)-(7) the slope of the output lies between `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. A
-/// saturated loop reaches both ends, before and after a reversal.
+/// With zeta = eta in the direction of the motion, and p = rho times the path,
+/// `d zeta/dp = 1 - zeta^n` while loading and `1 + (2·sigma - 1)·abs(zeta)^n` while unloading. With
+/// abs(zeta) <= 1 and 2·sigma >= 1, the slope of eta versus the input is in
+/// `0..=rho·max(1, 2·sigma)`. In torque mode (5)-(7), the slope of the output is therefore between
+/// `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. A saturated loop reaches both ends, before and
+/// after a reversal.
 ///
 /// ```
 /// use bowden::hysteresis::BoucWen;
@@ -24,14 +25,14 @@ use serde::Serialize;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Slopes {
-    /// Least slope.
+    /// Smallest slope.
     pub least: f64,
-    /// Greatest slope.
+    /// Largest slope.
     pub greatest: f64,
 }
 
 impl Slopes {
-    /// Of a transmission.
+    /// The slopes of a transmission.
     #[must_use]
     pub fn of(cable: &Transmission<f64>) -> Self {
         let shape = cable.shape();
@@ -61,8 +62,8 @@ impl Slopes {
     }
 }
 
-/// Refuses a model whose output falls along the input, beyond the effect of the hysteresis after a
-/// reversal: a controller with positive gains would make the loop diverge.
+/// Rejects a model whose output falls while the input rises, except for the effect of the
+/// hysteresis after a reversal. With positive gains, the loop would diverge.
 ///
 /// # Errors
 /// One sentence without the file's name.
@@ -91,10 +92,11 @@ pub(crate) fn rises(file: &ModelFile) -> Result<(), String> {
     ))
 }
 
-/// The unit of torque in which noise, limits and gains are.
+/// The unit of torque for noise, limits and gains.
 const TORQUE: &str = "N·m";
 
-/// Refuses a torque model in another unit: in mN·m its limits would be a thousand times too wide.
+/// Rejects a torque model in another unit. In mN·m, for example, its limits would be a thousand
+/// times too wide.
 fn in_newton_metres(file: &ModelFile) -> Result<(), String> {
     let units = file.about.as_ref().map(|about| &about.units);
     let stated = |end: &str| units.and_then(|units| units.get(end));
@@ -114,21 +116,21 @@ fn in_newton_metres(file: &ModelFile) -> Result<(), String> {
 pub(super) struct Plant {
     pub(super) cable: Transmission<f64>,
     pub(super) slopes: Slopes,
-    /// Delays and lags of the model \[s\]: a lag counts as a delay, which is never less.
+    /// Delays and lags of the model \[s\]. A lag counts as a delay.
     pub(super) own_delay: f64,
-    /// Range of the input \[N·m\] and of its rate \[N·m/s\] that the record has covered.
+    /// Range of the input in the record \[N·m\].
     pub(super) input: [f64; 2],
     pub(super) input_rate: [f64; 2],
-    /// Greatest magnitude of the effects' sum within the ranges \[N·m\], and their names.
+    /// Largest magnitude of the effects' sum within the ranges \[N·m\], and their names.
     pub(super) effects: f64,
-    /// Terms that the slopes leave out, since they read the input.
+    /// Terms that the slopes do not include, because they read the input.
     pub(super) left_out: Vec<String>,
-    /// 95 % intervals by name, as the file has them.
+    /// 95 % intervals by name, as in the file.
     pub(super) about: About,
 }
 
 impl Plant {
-    /// What is to be said of a model whose record has not stated its units.
+    /// The note on a model whose record does not state its units.
     pub(super) fn without_unit(&self) -> Option<&'static str> {
         let stated = |end: &str| self.about.units.contains_key(end);
         (!(stated("input") && stated("output"))).then_some(
@@ -136,7 +138,7 @@ impl Plant {
         )
     }
 
-    /// From a file; `Err` is one sentence without the file's name.
+    /// The plant of a model file. The error is one sentence without the name of the file.
     pub(super) fn new(file: &ModelFile) -> Result<Self, String> {
         if file.mode != "torque" {
             return Err(format!(
@@ -179,7 +181,7 @@ impl Plant {
         Ok(plant)
     }
 
-    /// What a term adds to the delay, to the slope or to the disturbance.
+    /// Adds the contribution of a term to the delay, the slope or the disturbance.
     fn add(&mut self, term: &TermFile) -> Result<(), String> {
         let name = match term.source.as_str() {
             "input" => term.effect.clone(),
@@ -239,20 +241,20 @@ impl Plant {
         Ok(most)
     }
 
-    /// Outputs that the saturated hysteresis reaches from the covered input in both directions
-    /// \[N·m\]; `None` if the stroke is shorter than the hysteresis, so that there is none.
+    /// Range of outputs that the recorded input reaches in both directions with saturated
+    /// hysteresis \[N·m\]; `None` if the stroke is shorter than the hysteresis.
     pub(super) fn output(&self) -> Option<[f64; 2]> {
         let [low, high] = self.ends();
         (low < high).then_some([low, high])
     }
 
-    /// Output at the ends of the covered input \[N·m\], each reached from inside.
+    /// Output at the ends of the recorded input range \[N·m\], each reached from inside the range.
     pub(super) fn ends(&self) -> [f64; 2] {
         let [low, high] = self.input;
         [self.cable.output(low, -1.0), self.cable.output(high, 1.0)]
     }
 
-    /// Greatest rate of the input in the record \[N·m/s\].
+    /// Largest rate of the input in the record \[N·m/s\].
     pub(super) fn greatest_rate(&self) -> f64 {
         self.input_rate[1].max(-self.input_rate[0])
     }

@@ -2,8 +2,8 @@
 //!
 //! The limits of a design are the range of its record. Against friction, these limits hold only a
 //! reference that is smaller than the record's largest output. From the corner of its bounds, the
-//! law moves the command faster than any input of the record. The range of the reference is
-//! therefore reduced, or the slew-rate limit raised, until `bowden certify` proves the file.
+//! adaptive law moves the command faster than any input of the record. The range of the reference
+//! is therefore reduced, or the slew-rate limit raised, until `bowden certify` proves the file.
 
 use super::Designed;
 use crate::decimal::digits;
@@ -11,10 +11,10 @@ use crate::gains::GainsFile;
 use crate::proof::{designed, Named, Proof, Sides};
 use bowden::control::{AdaptiveSettings, Form};
 
-/// Of a number that is changed, on the safe side of it.
+/// Number of digits of a changed value, which is rounded to the safe side.
 const DIGITS: u8 = 4;
 
-/// The nearest file that is proved, and its proof; `Err` is why there is none.
+/// The nearest file that is proved, and its proof. The error is the reason why there is none.
 pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
     let mut own = gains.clone();
     let mut why = String::new();
@@ -42,11 +42,11 @@ pub(super) fn settled(gains: &GainsFile) -> Result<(GainsFile, Proof), String> {
 /// The result of `bowden certify` for the file of a design.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Certifies {
-    /// The bounds of the error are proved.
+    /// The bound on the error is proved.
     Proves,
-    /// An inequality does not hold; a change that would satisfy it.
+    /// An inequality does not hold. The command names a change that would satisfy it.
     NamesWhatFails,
-    /// The file is refused, for this reason.
+    /// The file is rejected, for this reason.
     Refuses(String),
 }
 
@@ -71,7 +71,8 @@ impl Designed {
     }
 }
 
-/// The reference that the limits hold against the disturbance and the box of the error.
+/// Reduces the reference to a range that the limits can hold against the disturbance and the box of
+/// the error.
 fn smaller_reference(gains: &mut GainsFile, command: &Sides) -> Option<()> {
     let known = gains.plant.as_mut()?;
     let beyond = command.left.high - command.right.low;
@@ -80,7 +81,7 @@ fn smaller_reference(gains: &mut GainsFile, command: &Sides) -> Option<()> {
     (reference > 0.0).then(|| known.reference = reference)
 }
 
-/// The slew rate that is not met.
+/// Increases the slew-rate limit until the limit is not active.
 fn faster(gains: &mut GainsFile, slew: &Sides) -> Option<()> {
     let law = gains.adaptive.as_mut()?;
     let Form::FirstOrder { step, .. } = law.form else {

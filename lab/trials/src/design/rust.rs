@@ -14,7 +14,7 @@ macro_rules! line {
     }};
 }
 
-/// A number as firmware has it: the shortest text that reads back to the same `f32`.
+/// A number in firmware: the shortest text that parses to the same `f32`.
 fn number(value: f64) -> String {
     format!("{:?}", value as f32)
 }
@@ -88,7 +88,7 @@ fn head(designed: &Designed) -> String {
     out
 }
 
-/// An item: on one line where it fits, as rustfmt has it.
+/// An item in the format of rustfmt: on one line if it fits.
 fn item(what: &str, value: &str, out: &mut String) {
     let short = format!("{what} = {value};");
     if short.chars().count() <= 100 {
@@ -227,7 +227,7 @@ fn adaptive(own: &AdaptiveSettings<f64, 0>, every: usize, out: &mut String) {
     );
 }
 
-/// The fallback and the limits of the law, which counts steps instead of samples.
+/// The fallback and the limits of the adaptive law, which counts steps instead of samples.
 fn limits_of_steps(own: &AdaptiveSettings<f64, 0>, out: &mut String) {
     let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
     line!(

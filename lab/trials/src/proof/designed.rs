@@ -6,10 +6,10 @@ use super::{of_form, Named, Proof, Refusal, NO_PLANT};
 use crate::gains::{GainsFile, Known};
 use bowden::control::{self, AdaptiveSettings};
 
-/// What is proved of the adaptive law of a design.
+/// The proof for the adaptive law of a design.
 ///
 /// # Errors
-/// Where the file has no law in lag form or nothing of its plant, or where a limit is zero.
+/// A message if the file has no law in first-order form or no plant, or if a limit is zero.
 pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
     let law = gains.adaptive.as_ref().ok_or(
         "has no [adaptive], because the design found no admissible gains of the adaptive law (`bowden design` prints the reason)",

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Gains of the lag form and the known ranges of their plant.
+/// Gains of the first-order form and the known ranges of their plant.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Form {
@@ -21,16 +21,16 @@ pub(super) struct Form {
     pub(super) command: Positive,
     /// Slew rate \[command unit/s\], if there is one.
     pub(super) slew: Option<Positive>,
-    /// Box of beta_hat, above zero.
+    /// Bounds on beta_hat, positive.
     pub(super) beta: Above,
-    /// Box of delta_hat \[N·m\], not below zero.
+    /// Bounds on delta_hat \[N·m\], not negative.
     pub(super) delta: NotBelow,
     pub(super) plant: Plant,
     #[serde(default)]
     pub(super) regressor: Vec<Regressor>,
 }
 
-/// What is known of the plant.
+/// The known ranges of the plant.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Plant {
@@ -41,7 +41,8 @@ pub(super) struct Plant {
     pub(super) reference_rate: NotNegative,
 }
 
-/// One regressor: its estimate's box, its truth, its motion.
+/// One regressor: the bounds on its estimate, the range of the true value, and the range of the
+/// signal.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Regressor {
@@ -55,9 +56,9 @@ pub(super) struct Regressor {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Float {
-    /// 24 bits.
+    /// Single precision, with a mantissa of 24 bits.
     F32,
-    /// 53 bits.
+    /// Double precision, with a mantissa of 53 bits.
     F64,
 }
 
@@ -72,7 +73,7 @@ impl Float {
     }
 }
 
-/// A checked number; a refusal has its line and column.
+/// A checked number. An error contains its line and column.
 macro_rules! number {
     ($name:ident, $what:literal, $ok:expr) => {
         #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
@@ -96,8 +97,8 @@ number!(Positive, "a finite positive number", |x| x > 0.0);
 number!(NotNegative, "a finite number, zero or positive", |x| x
     >= 0.0);
 
-/// A checked box, likewise. It is read as a list of any length: an array of two would take
-/// the first two of three.
+/// A checked range. It is read as a list of any length, because an array of two would accept the
+/// first two of three values.
 macro_rules! range {
     ($name:ident, $what:literal, $ok:expr) => {
         #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]

@@ -1,10 +1,10 @@
-//! A change that would satisfy an inequality that does not hold: a rate, a bound or a gain.
+//! A change of a rate, a bound or a gain that would satisfy a violated inequality.
 
 use super::form::{Float, Form};
 use crate::decimal::{digits, places};
 use bowden_bound::{Inequality, Named};
 
-/// In one sentence. Its numbers are rounded to the safe side, to three digits.
+/// The change in one sentence. Its numbers are rounded to three digits, to the safe side.
 pub(super) fn words(form: &Form, inequality: &Inequality) -> String {
     let (lambda, step, k) = (form.lambda.0, form.step.0, form.k.0);
     let g = form.plant.alpha.0[1] * form.beta.0[1];

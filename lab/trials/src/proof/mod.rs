@@ -1,4 +1,4 @@
-//! The proof for the user's own gains: the shipped step, including every rounding error.
+//! The proof for the user's own gains. The proof covers the shipped step with all rounding errors.
 
 pub(crate) mod designed;
 mod form;
@@ -19,13 +19,13 @@ use std::path::Path;
 
 /// The proof for given gains, or the inequality that fails.
 ///
-/// Numbers are exact, as `mantissa*2^exponent`, and shown with the nearest `f64` for readers. The
+/// Each number is exact, as `mantissa*2^exponent`, and is accompanied by the nearest `f64`. The
 /// JSON has the schema `bowden.certificate/1`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Proof {
     /// `bowden.certificate/1`.
     pub schema: &'static str,
-    /// Whether all inequalities hold; three inequalities may replace that of the command.
+    /// Whether all inequalities hold. Three inequalities may replace the inequality of the command.
     pub proved: bool,
     /// Whether the command may reach its limit within the bounds.
     pub may_meet_the_limit: bool,
@@ -37,11 +37,11 @@ pub struct Proof {
     pub plant: ExactPlant,
     /// The regressors.
     pub regressors: Vec<ExactRegressor>,
-    /// S \[N·m\]: box of s.
+    /// S \[N·m\]: bound on `|s|`.
     pub s: Number,
-    /// Z \[N·m·s\]: box of z.
+    /// Z \[N·m·s\]: bound on `|z|`.
     pub z: Number,
-    /// S + lambda·Z \[N·m\]: bound of `|e|` at every sample.
+    /// S + lambda·Z \[N·m\]: bound on `|e|` at every sample.
     pub error: Number,
     /// W \[N·m\].
     pub w: Number,
@@ -117,9 +117,9 @@ pub struct Exact {
     pub command: String,
     /// Slew-rate limit \[command unit/s\]; `None` if there is none.
     pub slew: Option<String>,
-    /// Box of beta_hat.
+    /// Bounds on beta_hat.
     pub beta: [String; 2],
-    /// Box of delta_hat \[N·m\].
+    /// Bounds on delta_hat \[N·m\].
     pub delta: [String; 2],
     /// Largest adaptation gain of an estimate.
     pub adaptation: String,
@@ -145,24 +145,24 @@ pub struct ExactPlant {
 /// The known ranges of a regressor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExactRegressor {
-    /// Bounds of the estimate.
+    /// Bounds on the estimate.
     pub theta_hat: [String; 2],
     /// Range of the true value.
     pub theta: [String; 2],
-    /// Greatest magnitude.
+    /// Largest magnitude.
     pub magnitude: String,
-    /// Greatest rate \[1/s\].
+    /// Largest rate \[1/s\].
     pub rate: String,
 }
 
 /// Rounding errors of one step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rounded {
-    /// Of s \[N·m\].
+    /// Rounding error of s \[N·m\].
     pub s: Number,
     /// Rounding error of the command \[command unit\].
     pub command: Number,
-    /// Of z \[N·m·s\].
+    /// Rounding error of z \[N·m·s\].
     pub z: Number,
     /// Largest carry of the sum of z \[N·m·s\].
     pub carry_error_z: Number,
@@ -175,13 +175,13 @@ pub struct Rounded {
 pub struct Sides {
     /// `step`, `steepness`, …
     pub name: Named,
-    /// In symbols.
+    /// The inequality in symbols.
     pub text: &'static str,
-    /// Upper bound of the left side.
+    /// Upper bound on the left side.
     pub left: Number,
-    /// Lower bound of the right side.
+    /// Lower bound on the right side.
     pub right: Number,
-    /// Whether it holds.
+    /// Whether the inequality holds.
     pub holds: bool,
 }
 
@@ -200,14 +200,14 @@ impl From<&Inequality> for Sides {
 /// The reason why gains are not proved.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Refusal {
-    /// The inequality.
+    /// The violated inequality.
     pub text: &'static str,
     /// A change that would satisfy the inequality.
     pub mend: String,
 }
 
-/// Up to which adaptation gain and which leakage \[1/s\] nothing overflows: a file states
-/// neither, and no law comes near.
+/// Largest adaptation gain and leakage rate \[1/s\] for which no overflow is proved. A gains file
+/// specifies neither, and practical values are much smaller.
 const MOST_ADAPTATION: f64 = 1_073_741_824.0;
 
 /// Reads a file of gains and examines them.
@@ -223,10 +223,10 @@ pub fn prove(path: &Path) -> Result<Proof, String> {
 /// The error for a file of gains without a plant.
 const NO_PLANT: &str = "has no [plant]; add a [plant] table with alpha = [least, greatest], disturbance, disturbance_rate, reference and reference_rate";
 
-/// The same for a text; `label` is the name of the file.
+/// Reads the text of a file of gains and examines the gains. `label` is the name of the file.
 ///
 /// # Errors
-/// As [`prove`].
+/// The same as [`prove`].
 pub fn parse(text: &str, label: &str) -> Result<Proof, String> {
     if is_of_design(text) {
         let gains = GainsFile::parse(text, label)?;
@@ -276,7 +276,7 @@ fn of<T: Real, const N: usize>(form: &Form) -> Result<Proof, String> {
     Ok(proof(form, &settings, &plant, &examined))
 }
 
-/// The nearest floats; the upper bound of alpha is not below it.
+/// The settings in the nearest floats. The upper bound on alpha is rounded up.
 fn settings<T: Real, const N: usize>(form: &Form) -> Result<AdaptiveSettings<T, N>, Error> {
     let moving = |[low, high]: [f64; 2]| {
         let low = T::from_f64(low);
@@ -414,7 +414,8 @@ fn proof<T: Real, const N: usize>(
     }
 }
 
-/// The assumptions of the theorem, and those on the adaptation that a file does not state.
+/// The assumptions of the theorem, and the assumptions on the adaptation, which a file does not
+/// state.
 fn assumptions() -> Vec<&'static str> {
     let kind = Kind::PeakRounded;
     let certificate = bowden_bound::Certificate { kind, value: 0.0 };

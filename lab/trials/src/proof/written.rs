@@ -1,18 +1,18 @@
 //! A certificate in the forms that Coq and Gappa check independently of this program.
 //!
-//! Neither relies on the program's numbers, so the numbers here are computed in plain floats,
-//! slightly on the safe side, and rounded to few bits.
+//! Neither Coq nor Gappa relies on the numbers of the program. The numbers here are therefore
+//! computed in plain floats, slightly on the safe side, and rounded to few bits.
 
 use super::{Float, Proof};
 use bowden_bound::{Dyadic, Enclosure};
 use std::collections::BTreeMap;
 
-/// The theorem over the reals, which a certificate for Coq holds whole.
+/// The theorem over the reals, which a certificate for Coq contains completely.
 const BOX: &str = include_str!("../../../../theorems/Box.v");
 const COQ: &str = include_str!("certificate.v.in");
 const GAPPA: &str = include_str!("certificate.g.in");
 
-/// Bits of a bound, of S and U, and of Z, W and q.
+/// Number of bits of a bound, of S and U, and of Z, W and q.
 const SHORT: u32 = 15;
 const MIDDLE: u32 = 24;
 const LONG: u32 = 31;
@@ -33,7 +33,7 @@ struct Numbers {
     regressors: usize,
 }
 
-/// The theorem of a limit is over the reals alone.
+/// The message for a command limit that may be active, because this theorem is only over the reals.
 const AT_THE_LIMIT: &str = "--coq: in this proof the command may saturate, but certificates for Coq cover only inactive limits; theorems/Limit.v contains the theorem, and --json lists all numbers";
 
 /// The certificate as a theorem: `coqc` accepts or rejects it.
@@ -129,10 +129,10 @@ fn slew(proof: &Proof) -> Option<String> {
     ))
 }
 
-/// The roundings of the step as a script for Gappa.
+/// The rounding errors of the step as a script for Gappa.
 ///
 /// # Errors
-/// As [`coq`].
+/// The same as [`coq`].
 pub fn gappa(proof: &Proof) -> Result<String, String> {
     let numbers = Numbers::of(proof)?;
     let (names, exact, _) = sums(numbers.regressors);
@@ -269,7 +269,7 @@ fn binary(x: Dyadic) -> String {
     format!("{mantissa}b{exponent}")
 }
 
-/// What a certificate is of, read back.
+/// The subject of a certificate, parsed from its exact numbers.
 struct Given {
     k: Enclosure,
     lambda: Enclosure,
@@ -283,7 +283,7 @@ struct Given {
     /// Largest `|theta'x + D|`, and largest `|theta_hat'x|`.
     load: Enclosure,
     compensation: Enclosure,
-    /// Greatest `|theta_hat_i|` and `|x_i|`, rounded up.
+    /// Largest `|theta_hat_i|` and `|x_i|`, rounded up.
     terms: Vec<(Enclosure, Enclosure)>,
     unit: Enclosure,
 }
@@ -323,7 +323,7 @@ impl Given {
         })
     }
 
-    /// The gains, and what follows from them alone.
+    /// The gains, and the numbers that depend only on them.
     fn gains(&self) -> BTreeMap<&'static str, Enclosure> {
         let (low, high) = (self.alpha[0] * self.beta[0], self.alpha[1] * self.beta[1]);
         let steepest = Enclosure::of(1.0) + self.unit * Enclosure::of(8.0);
@@ -340,8 +340,8 @@ impl Given {
         ])
     }
 
-    /// The boxes and the roundings: a thousandth more room than the program needs, and a
-    /// hundredth more rounding.
+    /// The boxes and the rounding errors. The boxes are a thousandth larger, and the rounding
+    /// errors a hundredth larger, than the program needs.
     fn bounds(&self, proof: &Proof) -> BTreeMap<&'static str, Enclosure> {
         let of = Enclosure::of::<f64>;
         let (wider, slack) = (of(1.0 + 2_f64.powi(-10)), of(1.01));
@@ -393,7 +393,7 @@ impl Given {
         ])
     }
 
-    /// Where the inputs of the step lie.
+    /// The ranges of the inputs of the step.
     fn ranges(&self, bounds: &BTreeMap<&'static str, Enclosure>) -> Vec<Range> {
         let range = |name: &str, of: &str, low: Enclosure, high: Enclosure| Range {
             name: name.to_owned(),
