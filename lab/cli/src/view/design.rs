@@ -242,7 +242,7 @@ fn details(designed: &Designed) -> Vec<String> {
     ];
     let own = &designed.adaptive;
     if own.every > 1 {
-        all.push("the law does not run on every sample, because its first-order form needs a plant that responds within one step".to_owned());
+        all.push("the adaptive law does not run on every sample, because its first-order form needs a plant that responds within one step".to_owned());
     }
     if let Some(law) = &own.settings {
         all.push(format!(
