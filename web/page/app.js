@@ -130,7 +130,7 @@ function show() {
   const missing = Object.keys(names).filter((part) => !state.parts.some((own) => own.part === part));
   at("columns-note").textContent = missing.length
     ? `Choose the column of the ${missing.join(" and of the ")}.`
-    : "The roles below follow from the names. To correct a role, choose another one.";
+    : "The roles below follow from the column names. To change a role, choose another one.";
   const focus = document.activeElement?.id;
   at("columns").replaceChildren(...first.columns.map((column, index) => card(column, index, refused?.refusal?.column)));
   if (focus?.startsWith("part-") || focus?.startsWith("channel-")) at(focus)?.focus();
