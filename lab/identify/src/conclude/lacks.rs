@@ -63,7 +63,7 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
     format!(
-        "The baseline model lacks {} and a part that matches no effect in the catalogue. With the named effects, the held-out error changes from {} to {} of the output's standard deviation. An additional curve changes it to {}.",
+        "The baseline model lacks {} and a part that matches no effect in the catalogue. With the named effects, the held-out error changes from {} to {} of the output's standard deviation. An additional curve changes this error to {}.",
         added.join(", then "),
         held_out(&ledger.declared.rmse),
         held_out(named),

@@ -169,12 +169,12 @@ impl Finding {
                 percent(*share)
             ),
             Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies. Missing friction can cause such spectral lines without an external disturbance.", terms.join(", ")),
-            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as for a rope around a post.".to_owned(),
+            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as with a rope around a post.".to_owned(),
             Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times `{channel}`, so the friction changes with the temperature."),
             Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises. One of the two signs is probably reversed. `bowden design` rejects the model until you correct the sign."),
             Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta {kappa_eta:.3}). Its gain and the effect of {} partly cancel, so neither is a property of the rig by itself.", terms.join(", ")),
             Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need this channel. Does `{channel}` measure the output, as an angle behind a spring does? If so, omit its column."),
-            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record the load follows `{channel}`, so the model describes this load and no other. Record another load, or name the transmission's terms in --baseline."),
+            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record the load follows `{channel}`, so the model describes only this load. Record another load, or name the transmission's terms in --baseline."),
             Self::SearchStopped { seconds: Some(seconds), .. } => format!("The search stopped after {seconds} s, as requested. This is the best model so far, and further terms may be missing."),
             Self::SearchStopped { terms: None | Some(0), .. } => "There was no search for terms, as requested.".to_owned(),
             Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one term, as requested. Further terms may be missing.".to_owned(),
@@ -218,7 +218,7 @@ impl Finding {
                 format!("{what}. With this correction the error is {}, and the limit is {}.", percent(*error), percent(*limit))
             }
             Self::OutputUnitDiffers { output } => format!("Does `{output}` have a different unit or calibration in this record?"),
-            Self::ModelInexact { own } => format!("The model had an error of {} on its own record. On another motion such a model may have a larger error, even if the rig is the same.", percent(*own)),
+            Self::ModelInexact { own } => format!("The model had an error of {} on its own record. On another motion, such a model may have a larger error, even if the rig is the same.", percent(*own)),
             Self::ModelNotTransferable => "The verdict of the model file is `not-transferable`. Do not use the model on another record.".to_owned(),
             Self::ResidualDependsOn { variable: None, .. } => "The residual depends on no measured quantity, as far as this record shows.".to_owned(),
             Self::ResidualDependsOn { variable: Some(variable), is_tested } => {
