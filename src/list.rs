@@ -92,7 +92,7 @@ where
     match list.len == N {
         true => Ok(list.items),
         false => Err(D::Error::custom(format_args!(
-            "a list of {N} items was expected"
+            "the list must have {N} items"
         ))),
     }
 }

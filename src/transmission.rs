@@ -281,13 +281,11 @@ impl<T: Real> Transmission<T> {
     /// on every branch (for a negative gain: fall). See the [module](crate::transmission).
     pub fn inverse(&self) -> Result<Inverse<T>, Error> {
         if self.gain == T::zero() {
-            return Err(Error::Inadmissible(
-                "the inverse needs a gain that is not zero",
-            ));
+            return Err(Error::Inadmissible("the inverse needs a non-zero gain"));
         }
         if self.turns_back(self.shape.sigma(), self.shape.rho()) {
             return Err(Error::Inadmissible(
-                "the inverse needs sigma <= |gain|/(2*|kappa_eta|*rho), or the output turns back",
+                "the inverse needs sigma <= |gain|/(2*|kappa_eta|*rho)",
             ));
         }
         let (hysteresis, offset) = match self.mode {

@@ -71,7 +71,7 @@ impl<T: Real> PerStep<T> {
         let within = PeakSampled::try_new(law, plant)?;
         let settings = law.settings();
         let Form::FirstOrder { step, .. } = settings.form else {
-            return Err(Error::Inadmissible("the gains must have the lag form"));
+            return Err(Error::Inadmissible("the gains must be in first-order form"));
         };
         let (gain, lambda, two) = (settings.gain, settings.lambda, T::from_f64(2.0));
         let mut rate = if gain < two {

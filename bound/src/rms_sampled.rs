@@ -78,7 +78,7 @@ impl<T: Real> RmsSampled<T> {
         let within = PeakSampled::try_new(law, plant)?;
         let settings = law.settings();
         let Form::FirstOrder { step, .. } = settings.form else {
-            return Err(Error::Inadmissible("the gains must have the lag form"));
+            return Err(Error::Inadmissible("the gains must be in first-order form"));
         };
         if step * settings.lambda >= T::one() {
             return Err(Error::Inadmissible("h*lambda < 1"));

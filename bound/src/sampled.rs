@@ -83,10 +83,12 @@ impl<T: Real> PeakSampled<T> {
         plant.check()?;
         let settings = law.settings();
         let Form::FirstOrder { plant_gain, .. } = settings.form else {
-            return Err(Error::Inadmissible("the gains must have the lag form"));
+            return Err(Error::Inadmissible("the gains must be in first-order form"));
         };
         if plant.alpha.high > plant_gain {
-            return Err(Error::Inadmissible("alpha <= plant_gain of the lag form"));
+            return Err(Error::Inadmissible(
+                "alpha <= plant_gain of the first-order form",
+            ));
         }
         let lambda = settings.lambda;
         let stiffness = settings.gain - T::one() / (lambda * lambda);

@@ -260,7 +260,7 @@ pub(crate) fn of_rates(status: RateStatus) -> (bowden_result, bowden_fault) {
 #[no_mangle]
 pub extern "C" fn bowden_result_text(result: i32) -> *const c_char {
     let text: &CStr = match result {
-        0 => c"all well",
+        0 => c"success",
         1 => c"a good sample, but the rates have not settled yet",
         2 => c"a good position after an unknown time: the rates are held",
         3 => c"a regressor was bad and its term is omitted; or an error was not learned",

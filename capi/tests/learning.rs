@@ -188,7 +188,7 @@ fn arrays_that_cannot_be_are_refused_and_nothing_is_written() {
     // The last place that a pointer can lead to.
     let last = far.with_addr(usize::MAX - 3);
     let overlap = "learned and unfiltered must not overlap";
-    let few = "there must be as many cells as lead and filter need";
+    let few = "the lead and the filter need more cells";
     for (arrays, cells, result, about) in [
         ([null, at(250)], 250, R::ErrorNull, ""),
         ([at(0), null], 250, R::ErrorNull, ""),
@@ -284,7 +284,7 @@ fn an_array_within_the_object_is_refused() {
 fn a_setting_that_is_refused_is_named_and_object_and_arrays_are_as_they_were() {
     use bowden_result as R;
     type Change = fn(&mut bowden_iterative_learning_settings_f32);
-    let few = "there must be as many cells as lead and filter need";
+    let few = "the lead and the filter need more cells";
     let cases: [(Change, R, &str); 8] = [
         (|s| s.gain = f32::NAN, R::ErrorNonFinite, "gain"),
         (|s| s.gain = 0.0, R::ErrorOutOfRange, "gain"),

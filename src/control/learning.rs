@@ -196,7 +196,7 @@ impl<T: Real> IterativeLearning<T> {
     pub fn check_cells(&self, cells: usize) -> Result<(), Error> {
         if cells < self.fewest_cells() {
             return Err(Error::Inadmissible(
-                "there must be as many cells as lead and filter need",
+                "the lead and the filter need more cells",
             ));
         }
         if cells > Self::MOST_CELLS {

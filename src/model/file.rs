@@ -71,8 +71,7 @@ impl<X, F: FnOnce(&str) -> Option<X>> Visitor<'_> for Text<F> {
 
     fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<X, E> {
         let expected = self.0;
-        (self.1)(text)
-            .ok_or_else(|| E::custom(format_args!("{text:?} where {expected} was expected")))
+        (self.1)(text).ok_or_else(|| E::custom(format_args!("{text:?} is not {expected}")))
     }
 }
 
@@ -213,7 +212,7 @@ impl<T: Real> Line<T, Name> {
         for (shape, expected) in given.iter().zip(effect.info().shapes) {
             if shape.name.0 != expected.name {
                 return Err(E::custom(format_args!(
-                    "term {name}: another shape where {} was expected",
+                    "term {name}: a shape must be named {}",
                     expected.name
                 )));
             }
@@ -226,7 +225,9 @@ impl<T: Real> Line<T, Name> {
         Ok(Term {
             effect,
             source: source.ok_or_else(|| {
-                E::custom(format_args!("term {name}: no channel of its source's name"))
+                E::custom(format_args!(
+                    "term {name}: no channel has the name of its source"
+                ))
             })?,
             origin: self.origin,
             gain: self.gain,
@@ -245,7 +246,7 @@ where
     let channels = file.channels.items();
     for (place, name) in channels.iter().enumerate() {
         if channels.iter().take(place).any(|other| other == name) {
-            return Err(D::Error::custom("two channels have one name"));
+            return Err(D::Error::custom("two channels have the same name"));
         }
     }
     let transmission = file.transmission;

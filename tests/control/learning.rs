@@ -371,7 +371,7 @@ fn what_cannot_be_is_refused_by_name() {
         assert_eq!(learning.with_forgetting(share), Err(expected));
     }
     assert_eq!(learning.fewest_cells(), 16);
-    let few = "there must be as many cells as lead and filter need";
+    let few = "the lead and the filter need more cells";
     for (first, second, error) in [
         (16, 16, None),
         (

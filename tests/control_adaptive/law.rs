@@ -64,10 +64,10 @@ fn a_refusal_says_which_setting_or_condition() {
         (|s| s.theta = [Estimator::fixed(9.0).within(-5.0, 5.0)], OutOfRange("theta.initial")),
         (|s| s.delta.gain = -1.0, OutOfRange("delta.gain")),
         (|s| s.beta.leakage = Leakage::Switching { rate: 0.1, bound: 0.0 }, OutOfRange("beta.leakage.bound")),
-        (|s| s.beta = Estimator::fixed(1.0).within(0.0, 1.1), Inadmissible("lag form: beta.low > 0")),
-        (|s| s.delta = Estimator::fixed(1.0).within(-1.0, 7.0), Inadmissible("lag form: delta.low >= 0")),
-        (|s| s.form = Form::FirstOrder { step: 0.5, plant_gain: 1e-3 }, Inadmissible("lag form: h*lambda <= 1")),
-        (|s| s.epsilon = 0.05, Inadmissible("lag form: h*lambda*g*(k + delta.high/epsilon) <= 1")),
+        (|s| s.beta = Estimator::fixed(1.0).within(0.0, 1.1), Inadmissible("first-order form: beta.low > 0")),
+        (|s| s.delta = Estimator::fixed(1.0).within(-1.0, 7.0), Inadmissible("first-order form: delta.low >= 0")),
+        (|s| s.form = Form::FirstOrder { step: 0.5, plant_gain: 1e-3 }, Inadmissible("first-order form: h*lambda <= 1")),
+        (|s| s.epsilon = 0.05, Inadmissible("first-order form: h*lambda*g*(k + delta.high/epsilon) <= 1")),
         (|s| {
             s.fallback = Fallback::try_new(3, 50.0).unwrap();
             s.limits = Limits::try_new(-10.0, 10.0).unwrap();

@@ -129,8 +129,8 @@ function show() {
   const names = { time: "time", input: "input", output: "output" };
   const missing = Object.keys(names).filter((part) => !state.parts.some((own) => own.part === part));
   at("columns-note").textContent = missing.length
-    ? `Choose the column of the ${missing.join(" and of the ")}.`
-    : "The roles below follow from the names. To correct a role, choose another one.";
+    ? `Choose the column for the ${missing.join(" and for the ")}.`
+    : "The roles below follow from the column names. To change a role, choose another one.";
   const focus = document.activeElement?.id;
   at("columns").replaceChildren(...first.columns.map((column, index) => card(column, index, refused?.refusal?.column)));
   if (focus?.startsWith("part-") || focus?.startsWith("channel-")) at(focus)?.focus();

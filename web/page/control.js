@@ -23,7 +23,7 @@ const RIG = [
   ["motor_damping", "Friction of motor and pulley [N·m·s/rad]", { placeholder: "2.7" }],
   ["joint_inertia", "Inertia of the joint [kg·m²]", { placeholder: "0.004" }],
   ["joint_damping", "Damping of the joint [N·m·s/rad]", { placeholder: "0.5" }],
-  ["load_stiffness", "Spring at the joint [N·m/rad]", { placeholder: "150" }],
+  ["load_stiffness", "Stiffness of the spring at the joint [N·m/rad]", { placeholder: "150" }],
   ["delay", "Delay of the drive [samples]", { placeholder: "1", max: 8, step: 1 }],
   ["drive_lag", "Time constant of the drive [s]", { placeholder: "0.0005" }],
   ["sensor_lag", "Time constant of the torque sensors [s]", { placeholder: "0.001" }],
@@ -34,7 +34,7 @@ const RIG = [
 export function control(found, { model, ask, stop, keep }) {
   if (!model().bytes) return [];
   if (found.mode !== "torque") {
-    return [element("h3", {}, "Controller gains"), element("p", { class: "note" }, "Gains can be derived from a model in torque mode only.")];
+    return [element("h3", {}, "Controller gains"), element("p", { class: "note" }, "Gains can be derived only from a model in torque mode.")];
   }
   let gains = null;
   const paper = element("option", { value: "paper" }, "those of Nguyen et al. (2018)");
@@ -59,13 +59,13 @@ export function control(found, { model, ask, stop, keep }) {
     return answered;
   }, stop, element("div", { class: "fields" }, element("label", {}, "Gains", which), ...TRIALS.map(number),
     tick("varying", "Move the conduit during the trials"), tick("gait", "Follow a gait, with one push-off per second")),
-  element("details", {}, element("summary", {}, "Numbers of the rig"), fields(RIG)));
+  element("details", {}, element("summary", {}, "Parameters of the rig"), fields(RIG)));
   return [
     element("h3", {}, "Controller gains"),
     element("p", { id: "delay-note", class: "note" }, "Gains and limits for a PI and an adaptive controller. The delay is the time from a command to its effect in the measured torque: transport, computation, drive, sensor and joint."),
     ...design,
     element("h3", {}, "Compare controllers on the simulated rig"),
-    element("p", { class: "note" }, "With the gains above, the rig has your model's transmission. With the gains of Nguyen et al. (2018), your model is only fed forward."),
+    element("p", { class: "note" }, "With the gains above, the rig has your model's transmission. With the gains of Nguyen et al. (2018), your model is used only for the feed-forward."),
     ...compare,
   ];
 }

@@ -184,7 +184,7 @@ function sliders(data, part, fit) {
     const eta = await of([...now.slice(0, 3), now[3] ?? 0], data.input);
     if (own !== turn) return;
     part.values = eta;
-    said.textContent = "Recomputed from the samples of the trace, so at the identified values the error is close to that of the report, but not equal.";
+    said.textContent = "The error is recomputed from the samples of the trace. At the identified values, it is close, but not equal, to the error in the report.";
     fit();
   };
   const fields = ranges.map(({ name, unit, low, high }, k) => {
@@ -250,7 +250,7 @@ function place(picture, event) {
 function loop(data, state, point) {
   const { from, to } = state.span;
   const [xs, seen, made] = [data.input, data.measured, state.model].map((own) => own.slice(from, to + 1));
-  const { picture, x, y } = frame(xs, [...seen, ...made], [data.labels.input, data.labels.output], "Output over input: measured and model");
+  const { picture, x, y } = frame(xs, [...seen, ...made], [data.labels.input, data.labels.output], "Output versus input: measured and model");
   picture.append(svg("path", { class: "measured", d: line(xs, seen, x, y) }), svg("path", { class: "model", d: line(xs, made, x, y) }));
   if (state.at !== null) picture.append(svg("circle", { class: "cursor", cx: x(data.input[state.at]), cy: y(data.measured[state.at]), r: 6, fill: "none" }));
   picture.addEventListener("pointermove", (event) => {

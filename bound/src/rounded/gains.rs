@@ -138,7 +138,7 @@ fn word<T: Real>() -> Word {
 /// The step \[s\] of settings whose single numbers make sense.
 fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<T, Error> {
     let Form::FirstOrder { step, .. } = settings.form else {
-        return Err(Error::Inadmissible("the gains must have the lag form"));
+        return Err(Error::Inadmissible("the gains must be in first-order form"));
     };
     above_zero(step, "step")?;
     above_zero(settings.gain, "gain")?;

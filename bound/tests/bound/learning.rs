@@ -334,7 +334,7 @@ fn what_cannot_be_shown_is_refused_by_name() {
         (CELLS, 1.0, 0.0, Some(OutOfRange("factor"))),
         (CELLS, 1.0, 1.1, Some(OutOfRange("factor"))),
         (CELLS, 0.0, 1.0, Some(OutOfRange("cycle"))),
-        (19, 1.0, 1.0, Some(Inadmissible("there must be as many cells as lead and filter need"))),
+        (19, 1.0, 1.0, Some(Inadmissible("the lead and the filter need more cells"))),
         (21, 1.0, 1.0, Some(Inadmissible("the loop must hardly respond above the cells' Nyquist frequency"))),
     ];
     for (cells, cycle, factor, error) in cases {

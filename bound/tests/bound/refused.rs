@@ -30,7 +30,7 @@ fn each_form_has_its_own_certificates() {
         PeakContinuous::try_new(&law(lag()), &plant),
         Err(not_literal)
     );
-    let not_lag = Error::Inadmissible("the gains must have the lag form");
+    let not_lag = Error::Inadmissible("the gains must be in first-order form");
     assert_eq!(PeakSampled::try_new(&law(literal()), &plant), Err(not_lag));
     assert_eq!(PerStep::try_new(&law(literal()), &plant), Err(not_lag));
 }
@@ -75,7 +75,7 @@ fn an_assumption_that_can_be_checked_is_checked() {
         (
             lag(),
             with_alpha(1.01),
-            "alpha <= plant_gain of the lag form",
+            "alpha <= plant_gain of the first-order form",
         ),
         (
             with(lag(), |s| s.z_limit = 0.01),

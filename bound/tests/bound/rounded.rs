@@ -213,7 +213,7 @@ fn a_certificate_that_cannot_be_stated_names_the_reason() {
     type Change = fn(&mut Settings);
     #[rustfmt::skip]
     let cases: [(Error, Change); 5] = [
-        (Error::Inadmissible("the gains must have the lag form"), |s| s.form = published()),
+        (Error::Inadmissible("the gains must be in first-order form"), |s| s.form = published()),
         (Error::NonFinite("gain"), |s| s.gain = f32::NAN),
         (Error::OutOfRange("epsilon"), |s| s.epsilon = 0.0),
         (Error::Inadmissible("longest_dt >= step"), |s| s.longest_dt = 1e-4),

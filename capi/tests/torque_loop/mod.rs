@@ -144,7 +144,7 @@ fn triangle(k: i32, period: i32) -> f32 {
 
 fn words(status: Status) -> &'static str {
     match status {
-        Status::Good => "all well",
+        Status::Good => "success",
         Status::Held(Fault::Measured) => {
             "a bad sample: the last good command or value is held: the measured output is NaN or infinite"
         }

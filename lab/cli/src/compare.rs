@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 pub struct Compare {
     /// White noise of the torque sensors [N·m rms] [default: the noise for which --gains were
     /// designed, 0.02 with --effect, or otherwise 0.28 as in the experiment]. At 0.28, the gains of
-    /// Nguyen et al. (2018) amplify the noise so much that it hides the improvement from a found
-    /// effect.
+    /// Nguyen et al. (2018) amplify the noise so much that the noise hides the improvement from an
+    /// identified effect.
     #[arg(long, value_name = "N·m")]
     noise: Option<f64>,
     /// Move the conduit during the trials, so that B, kappa_eta and T0 drift.
@@ -62,7 +62,7 @@ pub struct Compare {
     json: bool,
 }
 
-/// Numbers of the rig.
+/// Parameters of the rig.
 #[derive(Args)]
 struct RigOptions {
     /// Torque at the proximal pulley per command unit [N·m] [default: the value in the --gains file

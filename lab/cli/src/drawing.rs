@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum FigureName {
-    /// The output over the input: measured and both models.
+    /// The output versus the input: measured and both models.
     Loop,
     /// The residuals of both models over time.
     Residual,
@@ -26,7 +26,7 @@ pub struct Drawing {
     /// Write one figure as SVG, chosen by --figure.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// The figure of --plot [default: the loop].
+    /// The figure for --plot [default: the loop].
     #[arg(long, value_enum, requires = "plot", value_name = "FIGURE")]
     figure: Option<FigureName>,
 }

@@ -39,7 +39,7 @@ pub struct Columns {
     #[arg(long, alias = "until", value_name = "SECONDS")]
     pub end: Option<f64>,
     /// Cut-off frequency of the zero-phase low-pass filter [Hz] [default: from the input's
-    /// spectrum].
+    /// spectrum; `validate` uses the cut-off of the model file].
     #[arg(long, value_name = "HZ")]
     pub cutoff: Option<f64>,
     /// Compute the time from the row number and this sampling rate [Hz].

@@ -32,7 +32,7 @@ impl Check<'_> {
             section("loop", "Hysteresis loop", loops_of_files(&figures.signals)),
             section(
                 "residual",
-                "Residual over each variable",
+                "Residual versus each variable",
                 over_all(figures, unit),
             ),
             section(
@@ -144,7 +144,7 @@ fn reasons(facts: &CheckFacts) -> Markup {
     html! {
         @for one in &facts.depends_on {
             p {
-                "The residual depends on " (one.words) ": a curve over this variable removes "
+                "The residual depends on " (one.words) ": a free-form curve removes "
                 (format!("{:.0}", 100.0 * one.share)) " % of the squared error ("
                 @if let Some(p) = one.p { "p " (format!("{p:.1e}")) } @else { "not tested: the correlation time of the residual is too long" }
                 ")."

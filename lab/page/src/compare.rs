@@ -70,9 +70,9 @@ impl Compare<'_> {
             body: html! {
                 @for sentence in own.unwrap_or_default() { p { (sentence) } }
                 p class="note" {
-                    "The figures follow Figures 7 to 10 of "
+                    "The plots correspond to Figures 7 to 10 of "
                     cite { "Direct Torque Control for Cable Conduit Mechanisms for the Robotic Foot for Footwear Testing" }
-                    ", but the plant here is simulated. Each figure shows the trial with the first seed. The tables cover all seeds."
+                    ", but the plant here is simulated. Each plot shows the trial with the first seed. The tables cover all seeds."
                 }
             },
         };

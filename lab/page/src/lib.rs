@@ -23,7 +23,7 @@ use bowden_lab::facts::Figures;
 /// A figure that can be drawn individually.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Figure {
-    /// Output over input.
+    /// Output versus input.
     Loop,
     /// Both residuals over time.
     Residual,

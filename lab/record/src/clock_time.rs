@@ -49,10 +49,13 @@ pub(super) fn is_minutes(stamp: &str) -> bool {
     stamp.matches(':').count() == 1
 }
 
-/// A possible reason why time stamps without a date decrease.
+/// What to do if the time decreases.
+pub(super) const SORT: &str = "; sort the rows by time, or save each record in a separate file";
+
+/// What to do if times of day decrease.
 pub(super) fn restart(stamp: &str) -> &'static str {
     match (has_date(stamp), is_minutes(stamp)) {
-        (true, _) => "",
+        (true, _) => SORT,
         (_, true) => "; if the record passes a full hour, write the hours too, as in 01:59:50.2",
         _ => "; if the record passes midnight, add a date",
     }

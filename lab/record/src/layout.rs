@@ -10,6 +10,7 @@ use super::error::{shown, RecordError, NAME_LENGTH};
 use super::header::{self, Header};
 use super::number::is_data;
 use super::roles::{self, Roles};
+use super::scale::counted;
 use super::text::Rows;
 use super::{clock_time, limits, units, Options};
 
@@ -87,7 +88,10 @@ fn start_of(text: &str, line: usize) -> Result<(usize, usize), RecordError> {
     let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
     match ends.map(|(at, _)| at + 1).nth(before - 1) {
         Some(start) => Ok((start, before)),
-        None => refuse(format!("the file has only {} lines", text.lines().count())),
+        None => refuse(format!(
+            "the file has only {}",
+            counted(text.lines().count(), "line")
+        )),
     }
 }
 
@@ -327,8 +331,8 @@ fn nameless<'a>(
             ));
         };
         let message = format!(
-            "the row has {} cells, but --names lists {}",
-            head.lines[line].1.len(),
+            "the row has {}, but --names lists {}",
+            counted(head.lines[line].1.len(), "cell"),
             names.len()
         );
         return Err(RecordError::at(line + 1, message));

@@ -5,6 +5,7 @@
 //! a structured array are vectors. Every length is checked against the number of bytes.
 
 use super::limits::{BYTES, COLUMNS};
+use super::scale::counted;
 use super::vectors::Value;
 use super::zip::{damaged, entries, number, slice, unpacked, Damage};
 
@@ -34,7 +35,8 @@ pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)
             let count = *rows.min(columns);
             if !names.is_empty() && names.len() != count {
                 return Err(format!(
-                    "the array has {count} columns, but --names lists {}",
+                    "the array has {}, but --names lists {}",
+                    counted(count, "column"),
                     names.len()
                 ));
             }
@@ -45,8 +47,8 @@ pub(super) fn lone(bytes: &[u8], names: &[String]) -> Result<Vec<(String, Value)
             "the array is one column of {values} numbers; save a two-dimensional array, or name the columns with `np.savez`"
         )),
         (_, shape) if shape.len() != 2 && !header.fields.is_empty() => Err(format!(
-            "the array has {} dimensions, but it must have two, with one column per quantity",
-            shape.len()
+            "the array has {}, but it must have two, with one column per quantity",
+            counted(shape.len(), "dimension")
         )),
         _ => Err("the array does not contain real numbers".to_owned()),
     }

@@ -5,6 +5,7 @@ use super::header::Header;
 use super::kept::Kept;
 use super::layout::passed_over;
 use super::roles::Roles;
+use super::scale::counted;
 use super::source::{Row, Source};
 use super::sparse::{self, Lacking};
 use super::time::{Clock, Stamp};
@@ -127,8 +128,8 @@ impl<'a> Reader<'a> {
     fn said(&self) -> impl Iterator<Item = String> {
         let several = match self.carried {
             0 => None,
-            1 => Some("1 row spans several lines, in quotes".to_owned()),
-            rows => Some(format!("{rows} rows span several lines, in quotes")),
+            1 => Some("1 row spans several lines within quotes".to_owned()),
+            rows => Some(format!("{rows} rows span several lines within quotes")),
         };
         let comments = self
             .comments
@@ -141,7 +142,8 @@ impl<'a> Reader<'a> {
         let has_name = |cells: &usize| columns[*cells..].iter().any(|c| !c.name.is_empty());
         let short = self.short.filter(has_name).map(|cells| {
             format!(
-                "each row has only {cells} cells, but the header has {}; the columns without cells are not read",
+                "each row has only {}, but the header has {}; the columns without cells are not read",
+                counted(cells, "cell"),
                 columns.len()
             )
         });
@@ -271,8 +273,8 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         let mut message = format!(
-            "the row has {} cells, but the header has {}",
-            row.len(),
+            "the row has {}, but the header has {}",
+            counted(row.len(), "cell"),
             columns.len()
         );
         if row.last > row.line {

@@ -89,6 +89,14 @@ pub(super) fn is_noisy(moving: &[f64]) -> bool {
     turns.count() as f64 > TURNS * moving.len() as f64
 }
 
+/// "1 cell", "3 cells".
+pub(super) fn counted(count: usize, noun: &str) -> String {
+    match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    }
+}
+
 /// "once", "3 times".
 pub(super) fn times(count: usize) -> String {
     match count {

@@ -58,7 +58,7 @@ pub(super) fn restarts(place: Place, last: f64, stamp: f64) -> RecordError {
         _ => "several records",
     };
     let why = format!(
-        "the file contains {records}: the column names are repeated, and the time restarts from {last} to {stamp} s"
+        "the file contains {records}: the column names are repeated, and the time jumps back from {last} to {stamp} s"
     );
     ask(place, &why)
 }

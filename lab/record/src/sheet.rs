@@ -8,6 +8,7 @@ use super::mat;
 #[cfg(feature = "parquet")]
 use super::parquet_file::File;
 use super::roles::{self, Roles};
+use super::scale::counted;
 use super::source::{Sheet, Source};
 use super::text::Rows;
 use super::vectors::{vectors, Vector};
@@ -183,8 +184,8 @@ fn same_length(header: &Header, roles: &Roles, lengths: &[usize]) -> Result<usiz
     let length = lengths[first];
     match roles.read().find(|index| lengths[*index] != length) {
         Some(other) => Err(RecordError::new(format!(
-            "the column has {} values, but it must have {length}, as `{}` does",
-            lengths[other],
+            "the column has {}, but it must have {length}, as `{}` does",
+            counted(lengths[other], "value"),
             super::error::shown(&header.columns[first].name, NAME_LENGTH)
         ))
         .on(&header.columns[other].name)),

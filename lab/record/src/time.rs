@@ -157,7 +157,7 @@ impl Clock {
                         return Ok(Stamp::Backwards(t, error));
                     }
                     let cell = row.text(index).filter(|_| self.of_day);
-                    let restart = cell.map_or("", clock_time::restart);
+                    let restart = cell.map_or(clock_time::SORT, clock_time::restart);
                     let message = format!("the time decreases from {last} to {stamp} s{restart}");
                     let error = RecordError::at(line, message).on(name);
                     return Ok(Stamp::Backwards(t, error));

@@ -112,7 +112,7 @@ pub fn record(
             "{t:.4},{i:.6},{o:.6},{o:.6},{p:.8},{d:.8},{command:.6},{load:.6}"
         );
         if rig.step_with_load(&mut state, command, load, step).diverged {
-            return Err("the rig diverged on the bench".to_owned());
+            return Err("the simulated rig diverged during the bench record".to_owned());
         }
     }
     Ok(Record {

@@ -194,10 +194,7 @@ macro_rules! names {
             concat!($of, ".leakage"),
             concat!($of, ".leakage.bound"),
             concat!($of, ".prior"),
-            concat!(
-                $of,
-                ": an estimate that adapts has a box of more than one point"
-            ),
+            concat!($of, ": an adaptive estimate needs low < high"),
         ]
     };
 }

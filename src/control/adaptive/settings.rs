@@ -194,18 +194,18 @@ crate::checked! {
                 above_zero!(step, "step");
                 above_zero!(plant_gain, "plant_gain");
                 if s.beta.low <= T::ZERO {
-                    return Err(Error::Inadmissible("lag form: beta.low > 0"));
+                    return Err(Error::Inadmissible("first-order form: beta.low > 0"));
                 }
                 if s.delta.low < T::ZERO {
-                    return Err(Error::Inadmissible("lag form: delta.low >= 0"));
+                    return Err(Error::Inadmissible("first-order form: delta.low >= 0"));
                 }
                 if step * s.lambda > T::ONE {
-                    return Err(Error::Inadmissible("lag form: h*lambda <= 1"));
+                    return Err(Error::Inadmissible("first-order form: h*lambda <= 1"));
                 }
                 let largest = largest_step(s, plant_gain);
                 if step > largest || largest.is_nan() {
                     return Err(Error::Inadmissible(
-                        "lag form: h*lambda*g*(k + delta.high/epsilon) <= 1",
+                        "first-order form: h*lambda*g*(k + delta.high/epsilon) <= 1",
                     ));
                 }
                 if largest < s.longest_dt {

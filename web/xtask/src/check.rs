@@ -272,7 +272,7 @@ fn fits_each_width(page: &mut Browser) -> Done {
 /// Checks that the page asks for the columns that their names do not identify.
 fn asks_for_columns(page: &mut Browser) -> Done {
     let note = page.value("document.getElementById('columns-note').innerText")?;
-    if note != json!("Choose the column of the input and of the output.") {
+    if note != json!("Choose the column for the input and for the output.") {
         return Err(failed(format!("rig.csv: the page says {note}")));
     }
     Ok(())

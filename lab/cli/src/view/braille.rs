@@ -11,7 +11,7 @@ const SIZE: [usize; 2] = [56, 12];
 /// The bit of each dot of a character, by column and row.
 const DOTS: [[u8; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// Output over input of the first record; `None` if nothing moves.
+/// Output versus input of the first record; `None` if nothing moves.
 #[must_use]
 pub fn loop_text(signals: &Signals) -> Option<String> {
     let rows = signals.files.first()?.rows.clone();

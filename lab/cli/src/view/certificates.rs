@@ -91,7 +91,7 @@ pub fn text(all: &Certified, label: Option<&str>, width: Width, verbose: bool) -
         assumptions(&mut out, all, width);
         return out;
     }
-    let hint = ["-v lists the assumptions about the plant on which every bound depends"];
+    let hint = ["-v lists the assumptions about the plant that every bound requires"];
     block(&mut out, width, "Note", hint);
     block(
         &mut out,
@@ -126,7 +126,7 @@ fn beyond(line: &Promise) -> String {
 const NOTES: [&str; 3] = [
     "range: alpha, zeta, c/K and the latency of the plant may differ from those of the rig by the first percentage, and wn by the second",
     "beta within p %: beta_hat is bounded to 1/alpha ± p %, where alpha is N_A·B of the rig",
-    "`constant |D|` row: for f32 with rounding errors and the gains in Table 2 of Nguyen et al. (2018), proofs/README.md proves |s| <= 0.43 N·m and |e| <= 0.86 N·m, if |w| <= 8 N·m and if s and z are initially within their bounds",
+    "`constant |D|` row: proofs/README.md proves |s| <= 0.43 N·m and |e| <= 0.86 N·m for f32 with rounding errors and the gains in Table 2 of Nguyen et al. (2018), if |w| <= 8 N·m and s and z start within their bounds",
 ];
 
 /// The assumptions of each kind of bound.

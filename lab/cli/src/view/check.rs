@@ -190,7 +190,7 @@ pub fn check_text(model: &str, path: &str, check: &CheckFacts, width: Width) -> 
             |p| format!("p {p:.1e}"),
         );
         format!(
-            "the residual depends on {}: a curve over this variable removes {:.0} % of the squared error ({tested})",
+            "the residual depends on {}: a free-form curve removes {:.0} % of the squared error ({tested})",
             one.words,
             100.0 * one.share
         )

@@ -135,8 +135,8 @@ fn seed(outcome: &Outcome) -> Columns {
 const NOTES: [&str; 4] = [
     "Baseline: the feed-forward is only the Bouc-Wen model, fitted to the bench record.",
     "Found terms: the feed-forward is the Bouc-Wen model with the terms that `identify` adds, refitted together.",
-    "Third regressor: the found terms are a regressor of the adaptive law, with their bench values as priors. The baseline is the adaptive law without these terms.",
-    "Quiet: the gains are a fifth of those of Nguyen et al. (2018), and the loop shows improvements that the full gains hide.",
+    "Third regressor: the found terms form a regressor of the adaptive law, with their bench values as priors. The baseline is the adaptive law without these terms.",
+    "Quiet: the gains are a fifth of those of Nguyen et al. (2018), and the loop reveals improvements that the full gains hide.",
 ];
 
 /// Schema `bowden.compare/1`.

@@ -48,7 +48,7 @@ pub(super) fn text(facts: &Facts, report: Report) -> Option<String> {
         report.width,
         "Curve",
         [format!(
-            "over {}: removes {:.1} % of the squared error (p {:.1e}); {}",
+            "versus {}: removes {:.1} % of the squared error (p {:.1e}); {}",
             unknown.words,
             100.0 * unknown.share,
             unknown.p,

@@ -62,12 +62,12 @@ fn answer(out: &mut String, designed: &Designed, width: Width) {
     let percent = 100.0 * (derivative.integral_gain - 1.0);
     let words = match derivative.helps {
         true => format!(
-            "A derivative helps: it raises k_i by {percent:.0} %. PID: {}. {}",
+            "Derivative action helps: it raises k_i by {percent:.0} %. PID: {}. {}",
             gains(&derivative.pid),
             margins(&derivative.pid)
         ),
         false => format!(
-            "A derivative does not help: it changes k_i by {percent:.0} % and amplifies noise."
+            "Derivative action does not help: it changes k_i by {percent:.0} % and amplifies noise."
         ),
     };
     prose(out, width, &words);
@@ -242,7 +242,7 @@ fn details(designed: &Designed) -> Vec<String> {
     ];
     let own = &designed.adaptive;
     if own.every > 1 {
-        all.push("the law does not run on every sample, because its first-order form needs a plant that responds within one step".to_owned());
+        all.push("the adaptive law does not run on every sample, because its first-order form needs a plant that responds within one step".to_owned());
     }
     if let Some(law) = &own.settings {
         all.push(format!(

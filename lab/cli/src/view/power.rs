@@ -164,7 +164,7 @@ pub fn power_text(power: &PowerFacts, width: Width, verbose: bool) -> String {
     block(&mut out, width, "Model", [power.model.join(", ")]);
     let (named, trials) = (power.named_without, power.trials);
     let mut notes = vec![format!(
-        "without an added effect, one is found in {named} of {trials} trials"
+        "without an added effect, the search finds one in {named} of {trials} trials"
     )];
     if verbose {
         notes.push(format!("Simulation: {SIMULATED}"));

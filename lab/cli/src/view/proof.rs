@@ -5,7 +5,7 @@ use anstyle::AnsiColor;
 use bowden_trials::facts::{above, fixed, scientific, Named, Proof, Sides, Towards};
 
 /// Of a proof in which the limit of the command may be met.
-const AT_THE_LIMIT: &str = "Within the bounds of the proof the command may saturate. The error bound still holds, because the saturated command can hold the reference against the disturbance (theorems/Limit.v).";
+const AT_THE_LIMIT: &str = "Within the bounds of the proof, the command may saturate. The error bound still holds, because the saturated command can hold the reference against the disturbance (theorems/Limit.v).";
 
 /// Schema `bowden.certificate/1`.
 ///

@@ -137,7 +137,7 @@ fn words(one: &Across) -> String {
     let others = || named(&|grade| grade.is_none());
     match (one.is_joint, some) {
         (true, 0) => format!(
-            "{}: found only in the joint fit, not in any single file",
+            "{}: found only in the joint fit, not in any individual file",
             one.title
         ),
         (true, n) if n == all => format!("{}: found in each individual file, {high}", one.title),

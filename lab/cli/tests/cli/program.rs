@@ -137,7 +137,7 @@ fn a_bad_record_or_option_gives_one_line_and_status_two() {
     assert!(refused(&["generate", "--seconds", "0"]).contains("seconds"));
     for taken in ["bowden.h", "Bowden_model.h"] {
         let line = refused(&["export", "--c", "model.toml", "--out", taken]);
-        assert!(line.contains("a name of the library"), "{line}");
+        assert!(line.contains("the library uses this name"), "{line}");
     }
     assert!(refused(&["identify", "--no-such-option"]).contains("--no-such-option"));
     assert!(refused(&["compare", "--inertia", "0"])

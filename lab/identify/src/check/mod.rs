@@ -272,7 +272,7 @@ impl Check {
         };
         if HOLDS * own > NOTHING {
             return format!(
-                "the larger of {} of the standard deviation, above which a model explains less than half of the output's variance, and {noise}",
+                "the larger of {} of the standard deviation (above this, a model explains less than half of the variance) and {noise}",
                 percent(NOTHING)
             );
         }

@@ -132,7 +132,7 @@ pub enum Finding {
         /// The defects.
         defects: Vec<Defect>,
     },
-    /// The residual is the sensor's noise.
+    /// The residual is sensor noise.
     ResidualIsNoise,
     /// The residual is noise on the fit segment, but exceeds the noise on the held-out segment.
     HeldOutAboveNoise {

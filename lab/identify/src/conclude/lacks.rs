@@ -15,7 +15,7 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
     match added.len() {
         0 if ledger.unknown.is_some() => {
             return format!(
-                "The missing part of the baseline model matches no effect in the catalogue. With a free curve, the held-out error changes {}.",
+                "The missing part of the baseline model matches no effect in the catalogue. With a free-form curve, the held-out error changes {}.",
                 from_to(before_after(data, ledger, done))
             )
         }
@@ -31,7 +31,7 @@ pub(super) fn lacks(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String
         _ => "falls",
     };
     format!(
-        "{} With {} the held-out error {goes} {}.{}",
+        "{} With {}, the held-out error {goes} {}.{}",
         lacking(&mechanisms(data, ledger, done)),
         added.join(", then "),
         from_to(before_after(data, ledger, done)),
@@ -63,7 +63,7 @@ fn beside_a_curve(data: &Prepared, ledger: &Ledger, done: &FinalFit, named: &Seg
     let added = names(ledger, done);
     let held_out = |rmse: &Segments| percent(rmse.normalised(data, &data.target).held_out);
     format!(
-        "The baseline model lacks {} and a part that matches no effect in the catalogue. With the named effects the held-out error changes from {} to {} of the output's standard deviation. An additional curve changes it to {}.",
+        "The baseline model lacks {} and a part that matches no effect in the catalogue. With the named effects, the held-out error changes from {} to {} of the output's standard deviation. An additional curve changes this error to {}.",
         added.join(", then "),
         held_out(&ledger.declared.rmse),
         held_out(named),

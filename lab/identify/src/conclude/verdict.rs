@@ -25,7 +25,7 @@ pub enum Verdict {
     /// The delivered model predicts held-out data worse than the baseline model, worse than a
     /// constant, or with many times the error of the fit segment.
     NotTransferable,
-    /// The residual is the sensor's noise, on the fit segment and held out.
+    /// The residual is sensor noise, on the fit segment and held out.
     Explained,
     /// The residual exceeds the noise, and no effect of the catalogue was found in it.
     StructuredResidual,

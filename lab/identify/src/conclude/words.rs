@@ -50,7 +50,7 @@ impl Finding {
                 )
             }
             Self::HeldOutFileScaled { path, gain, offset, unit, error } => format!(
-                "With a gain of {gain:.4} and an offset of {offset:.4}{}, the error on {path} is {:.2} %. Does a unit, a sign or a zero differ in that file? `--per-file gains` fits the gains of each file separately.",
+                "With a gain of {gain:.4} and an offset of {offset:.4}{}, the error on {path} is {:.2} %. Does a sensor have a different unit, sign or zero in that file? `--per-file gains` fits the gains of each file separately.",
                 spaced(unit.as_deref()),
                 100.0 * error,
             ),
@@ -58,7 +58,7 @@ impl Finding {
                 "Use `--per-file gains` to find out whether only the gains differ in the held-out file.".to_owned()
             }
             Self::WorseThanConstant { before, after } => format!(
-                "On the held-out segment the model is worse than a constant. Its error changes {}. Do not use this model on other data.",
+                "On the held-out segment, the model is worse than a constant. Its error changes {}. Do not use this model on other data.",
                 from_to((*before, *after))
             ),
             Self::HeldOutRises { ratio, before, after, terms, falls_up_to } => {
@@ -69,7 +69,7 @@ impl Finding {
                 if !terms.is_empty() {
                     text += &format!(" The search added {}.", terms.join(", then "));
                     text += &match *falls_up_to {
-                        0 => " The first of them already raises the error.".to_owned(),
+                        0 => " The first term already raises the error.".to_owned(),
                         n if n < terms.len() => format!(" The error falls up to and including {}, but {} raises it.", terms[n - 1], terms[n]),
                         _ => " Only the final fit, which uses more data, raises the error.".to_owned(),
                     };
@@ -77,8 +77,8 @@ impl Finding {
                 text
             }
             // The residual.
-            Self::ResidualIsNoise => "The residual is the sensor's noise.".to_owned(),
-            Self::HeldOutAboveNoise { held_out } => format!("The residual is the sensor's noise on the fit segment, but {held_out:.1} times this noise on the held-out segment. The two segments differ."),
+            Self::ResidualIsNoise => "The residual is sensor noise.".to_owned(),
+            Self::HeldOutAboveNoise { held_out } => format!("The residual is sensor noise on the fit segment, but {held_out:.1} times this noise on the held-out segment. The two segments differ."),
             Self::ResidualAboveNoise { floors, is_white, terms } => {
                 let size = match floors {
                     Some([fit, held_out]) => format!("The residual is {fit:.1} times the noise floor on the fit segment and {held_out:.1} times on the held-out segment"),
@@ -96,7 +96,7 @@ impl Finding {
             Self::NoNameForCurve { variable, by_effects } => {
                 // A reader who sees "95 %" asks why no effect is named: the refit and test decide.
                 let but = match *by_effects >= 1.0 - PART {
-                    true => ", but a refit accepts none of them",
+                    true => ", but all of them are rejected after a refit",
                     false => "",
                 };
                 format!(
@@ -135,7 +135,7 @@ impl Finding {
                     ends(*here)
                 )
             }
-            Self::MotionUnseen { input } => format!("The motion of `{input}` during the gap is unknown, and it affects the hysteresis after the gap."),
+            Self::MotionUnseen { input } => format!("The motion of `{input}` during the gap is unknown, but affects the hysteresis after the gap."),
             Self::FilesOfSeveralRigs { together, own } => format!(
                 "These files do not seem to come from one rig. On the fit segments, one model for all files has an error of {:.1} % of the output's standard deviation. With separate gains for each file, the error is {:.1} %. `--per-file gains` fits separate gains.",
                 100.0 * together,
@@ -146,10 +146,10 @@ impl Finding {
                     true => " `--per-file gains` fits an offset for each file.",
                     false => "",
                 };
-                format!("The preload changes in a step at the start of `{path}`. Does a sensor have a different zero in this file?{gains}")
+                format!("The preload changes abruptly at the start of `{path}`. Does a sensor have a different zero in this file?{gains}")
             }
             Self::CoarseSensor { channel, unit } => coarse(channel, unit.as_deref()),
-            Self::OutputLeads { seconds } => format!("In the model the output leads the input by about {:.1} ms, which is not causal. Were both signals logged with the same clock? If so, the model lacks an effect that produces a phase lead.", 1e3 * seconds),
+            Self::OutputLeads { seconds } => format!("In the model, the output leads the input by about {:.1} ms, which is not causal. Were both signals logged with the same clock? If so, the model lacks an effect that produces a phase lead.", 1e3 * seconds),
             Self::SegmentsDiffer { fit, held_out } => match fit > held_out {
                 true => format!("The output moves {:.0} times as much on the fit segment as on the held-out segment, so the percentages of the two segments are not comparable.", fit / held_out),
                 false => format!("The output moves {:.0} times as much on the held-out segment as on the fit segment, so the percentages of the two segments are not comparable.", held_out / fit),
@@ -157,30 +157,30 @@ impl Finding {
             // About the model.
             Self::PreslidingIsBacklash { sign_tells } => {
                 let own = match sign_tells {
-                    true => ". With the sign of kappa_x, the term is a slipping spring. With the opposite sign, it is slack",
+                    true => ". With the same sign as kappa_x, the term is a slipping spring. With the opposite sign, it is slack",
                     false => "",
                 };
                 format!("Presliding and backlash are the same function with opposite signs, so either name is correct{own}.")
             }
-            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input. Is it a drift of `{output}`, for example of a sensor that warms up? To find out, record again after the rig has run for longer."),
+            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input. Is this a drift of `{output}`, for example of a sensor that warms up? To find out, record again after the rig has run for longer."),
             Self::HysteresisLeftOut => "The model excludes the baseline hysteresis, because this record cannot distinguish it from a spring and an offset.".to_owned(),
             Self::HysteresisCancelled { share } => format!(
-                "On this record the hysteresis differs from a spring and an offset by only {} of the output. The gains of the three nearly cancel, so the model holds only within the recorded range.",
+                "On this record, the hysteresis differs from a spring and an offset by only {} of the output. The gains of these three parts nearly cancel, so the model holds only within the recorded range.",
                 percent(*share)
             ),
             Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies. Missing friction can cause such spectral lines without an external disturbance.", terms.join(", ")),
-            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as for a rope around a post.".to_owned(),
+            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as with a rope around a post.".to_owned(),
             Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times `{channel}`, so the friction changes with the temperature."),
             Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises. One of the two signs is probably reversed. `bowden design` rejects the model until you correct the sign."),
             Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta {kappa_eta:.3}). Its gain and the effect of {} partly cancel, so neither is a property of the rig by itself.", terms.join(", ")),
             Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need this channel. Does `{channel}` measure the output, as an angle behind a spring does? If so, omit its column."),
-            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record the load follows `{channel}`, so the model describes this load and no other. Record another load, or name the transmission's terms in --baseline."),
+            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record, the load follows `{channel}`, so the model describes only this load. Record another load, or name the transmission's terms in --baseline."),
             Self::SearchStopped { seconds: Some(seconds), .. } => format!("The search stopped after {seconds} s, as requested. This is the best model so far, and further terms may be missing."),
             Self::SearchStopped { terms: None | Some(0), .. } => "There was no search for terms, as requested.".to_owned(),
             Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one term, as requested. Further terms may be missing.".to_owned(),
             Self::SearchStopped { terms: Some(most), .. } => format!("The search stopped after {most} terms, as requested. Further terms may be missing."),
-            Self::RoundRaises { term, after: 0 } => format!("On held-out data the first term, {term}, already raises the error."),
-            Self::RoundRaises { term, after } => format!("On held-out data the error falls up to and including term {after}, but {term} raises it."),
+            Self::RoundRaises { term, after: 0 } => format!("On held-out data, the first term, {term}, already raises the error."),
+            Self::RoundRaises { term, after } => format!("On held-out data, the error falls up to and including term {after}, but {term} raises it."),
             Self::FileWorse { path, before, after } => format!("The error rises for {path}: {:.1} % → {:.1} %.", 100.0 * before, 100.0 * after),
             Self::ManyTerms { .. } => "Terms after the third have little physical meaning, because several effects would fit equally well.".to_owned(),
             // Of a validation.
@@ -198,7 +198,7 @@ impl Finding {
                 };
                 format!("{verdict}: its error is {}{unit}, compared with {}{unit} on the held-out part of its own record. The output moves less here, so this error is {} of the output.{advice}", amount(*here), amount(*own), percent(*error))
             }
-            Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is the sensor's noise. Nothing was refitted.", percent(*error)),
+            Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is sensor noise. Nothing was refitted.", percent(*error)),
             Self::ErrorTooLarge { error, own, with_line } => {
                 let own = own.map_or_else(
                     || "an unknown error on its own record (the model file gives none)".to_owned(),
@@ -218,7 +218,7 @@ impl Finding {
                 format!("{what}. With this correction the error is {}, and the limit is {}.", percent(*error), percent(*limit))
             }
             Self::OutputUnitDiffers { output } => format!("Does `{output}` have a different unit or calibration in this record?"),
-            Self::ModelInexact { own } => format!("The model had an error of {} on its own record. On another motion such a model may have a larger error, even if the rig is the same.", percent(*own)),
+            Self::ModelInexact { own } => format!("The model had an error of {} on its own record. On another motion, such a model may have a larger error, even if the rig is the same.", percent(*own)),
             Self::ModelNotTransferable => "The verdict of the model file is `not-transferable`. Do not use the model on another record.".to_owned(),
             Self::ResidualDependsOn { variable: None, .. } => "The residual depends on no measured quantity, as far as this record shows.".to_owned(),
             Self::ResidualDependsOn { variable: Some(variable), is_tested } => {

@@ -27,7 +27,7 @@ pub fn prefix(name: &str) -> Result<String, String> {
     };
     if TAKEN.contains(&prefix.as_str()) {
         return Err(
-            "this is a name of the library, so names derived from it would be defined twice; choose another name"
+            "the library uses this name, so names derived from it would be defined twice; choose another name"
                 .to_owned(),
         );
     }

@@ -402,7 +402,7 @@ impl Collected {
         let unseen = held_out == HeldOut::Nothing || kept_back >= 20;
         if split.fit.len() < 96 || !unseen {
             return Err(format!(
-                "too few filtered samples remain without gaps and defects: {} for the fit (at least 96 are needed), and {kept_back} in the smaller other segment (at least 20)",
+                "too few filtered samples remain without gaps and defects: {} for the fit (at least 96 are needed), and {kept_back} in the smaller of the other two segments (at least 20)",
                 split.fit.len()
             ));
         }

@@ -230,7 +230,7 @@ fn text_below_and_empty_cells_beside_the_table_are_passed_over() {
     );
     refused(
         format!("{plain}End\n4.00,1,2\n"),
-        "r.csv:402: the row has 1 cells, but the header has 3",
+        "r.csv:402: the row has 1 cell, but the header has 3",
     );
     refused(
         format!("{plain}NaN,NaN,NaN\n"),
@@ -265,7 +265,7 @@ fn a_column_at_the_end_that_no_row_has_is_passed_over() {
     );
     let lost: Vec<String> = rows().iter().map(|row| row[..4].to_owned()).collect();
     let line = refusal(csv("t,x,f", &lost), &Options::default());
-    assert!(line.starts_with("r.csv:2: the row has 1 cells"), "{line}");
+    assert!(line.starts_with("r.csv:2: the row has 1 cell"), "{line}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ fn a_time_that_restarts_below_the_names_is_refused_as_two_records() {
     let once = csv("t,x,f", &rows());
     refused(
         [once.as_str(), &once].concat(),
-        "r.csv:402: column `t`: the file contains two records: the column names are repeated, and the time restarts from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
+        "r.csv:402: column `t`: the file contains two records: the column names are repeated, and the time jumps back from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
     );
     let line = refusal([once.as_str(), &once, &once].concat(), &Options::default());
     assert!(
@@ -22,7 +22,8 @@ fn a_time_that_restarts_below_the_names_is_refused_as_two_records() {
     );
     assert_eq!(
         line,
-        "r.csv:402: column `t`: the time decreases from 3.99 to 0 s"
+        "r.csv:402: column `t`: the time decreases from 3.99 to 0 s; \
+         sort the rows by time, or save each record in a separate file"
     );
     let rate = Options {
         rate: Some(100.0),
@@ -61,6 +62,6 @@ fn a_segment_that_is_not_there_or_not_alike_is_refused() {
     );
     refused(
         once.clone() + "End\n" + &once,
-        "r.csv:403: column `t`: the file contains two records: the column names are repeated, and the time restarts from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
+        "r.csv:403: column `t`: the file contains two records: the column names are repeated, and the time jumps back from 3.99 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)",
     );
 }

@@ -6,7 +6,8 @@ use super::*;
 fn time_that_does_not_run_forward_is_refused() {
     refused(
         with_line(57, "0.53,1,2"),
-        "r.csv:57: column `t`: the time decreases from 0.54 to 0.53 s",
+        "r.csv:57: column `t`: the time decreases from 0.54 to 0.53 s; \
+         sort the rows by time, or save each record in a separate file",
     );
     refused(
         with_line(57, "0.54,1,2"),

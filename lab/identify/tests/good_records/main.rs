@@ -93,7 +93,7 @@ fn quoted_cells_hold_separators_quotes_and_line_ends() {
             record.notes,
             [
                 "columns not read: `what \"they\" said, or; not`",
-                "1 row spans several lines, in quotes",
+                "1 row spans several lines within quotes",
             ]
         );
         // Lines are counted as an editor does, those inside quotes included.

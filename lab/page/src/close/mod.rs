@@ -54,7 +54,7 @@ impl Close<'_> {
             ),
             section(
                 "residual",
-                "Residual over each variable",
+                "Residual versus each variable",
                 residual::over_variables(facts, figures),
             ),
             section(

@@ -53,7 +53,7 @@ fn over_one(one: &Dependence, k: usize, unit: Option<&str>) -> Chart {
         _ => format!("{before} → {after} of {all} bins differ from zero"),
     };
     let description = format!(
-        "Mean residual in bins over {}, before → after, at the 95 % level: {caption}.",
+        "Mean residual in bins of {}, before → after, at the 95 % level: {caption}.",
         one.words
     );
     Chart::new(&format!("over-{k}"), &one.words, &description, x, y)
@@ -224,7 +224,7 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
         scale: Scale::linear(ends.chain([0.0])),
     };
     let description = format!(
-        "The unmodelled dependence as a free curve over {}, with 95 % intervals.",
+        "The unmodelled dependence as a free-form curve versus {}, with 95 % intervals.",
         unknown.words
     );
     let band = knots.iter().filter_map(|k| {
@@ -245,7 +245,7 @@ pub(super) fn unknown(facts: &Facts, unknown: &UnknownFacts) -> Markup {
     .key("interval", "95 %");
     html! {
         p {
-            (unknown.sentence) " A free curve over this variable removes " (format!("{:.1}", 100.0 * unknown.share))
+            (unknown.sentence) " A free-form curve removes " (format!("{:.1}", 100.0 * unknown.share))
             " % of the squared error (p " (format!("{:.1e}", unknown.p)) "); " (unknown.kept)
             (in_brackets(unit)) "."
         }

@@ -195,7 +195,7 @@ fn zoom(signals: &Signals, file: &File, id: &str) -> Option<Chart> {
     )
 }
 
-/// Output over input: measured, and what both models make of it.
+/// Output versus input: measured, and what both models make of it.
 pub(crate) fn hysteresis_loop(signals: &Signals, file: &File, id: &str) -> Chart {
     let rows = || {
         let own = file.rows.clone();
@@ -212,14 +212,14 @@ pub(crate) fn hysteresis_loop(signals: &Signals, file: &File, id: &str) -> Chart
         scale: Scale::linear(rows().flat_map(|row| columns.map(|c| c.values[row]))),
     };
     let description = format!(
-        "The output {} over the input {}: the measured loop, and the loops of the {} model and the {} model.",
+        "The output {} versus the input {}: the measured loop, and the loops of the {} model and the {} model.",
         signals.measured.name, signals.input.name, first.name, last.name
     );
     let of = |column: &Column| {
         let points = rows().map(|row| [signals.input.values[row], column.values[row]]);
         points.collect::<Vec<_>>()
     };
-    Chart::new(id, "Output over input", &description, x, y)
+    Chart::new(id, "Output versus input", &description, x, y)
         .curve("measured", of(&signals.measured))
         .curve("declared", of(first))
         .curve("final", of(last))
@@ -248,10 +248,10 @@ fn residual_loop(signals: &Signals, file: &File, id: &str) -> Chart {
         points.collect::<Vec<_>>()
     };
     let description = format!(
-        "The residuals of the {} model and the {} model over the input {}. A loop shows hysteresis or delay that the model lacks.",
+        "The residuals of the {} model and the {} model versus the input {}. A loop shows hysteresis or delay that the model lacks.",
         first.name, last.name, signals.input.name
     );
-    Chart::new(id, "Residual over input", &description, x, y)
+    Chart::new(id, "Residual versus input", &description, x, y)
         .level("zero", 0.0)
         .curve("before", of(&signals.residuals[0]))
         .curve("final", of(&signals.residuals[1]))
@@ -361,7 +361,7 @@ pub(crate) fn of_files(signals: &Signals) -> Markup {
 pub(super) fn loops(facts: &Facts, figures: &Figures) -> Markup {
     html! {
         p {
-            "Without hysteresis the output would be a function of the input, and the loop would be a single curve. The height of the loop at a given input is the difference between the forward stroke and the backward stroke"
+            "Without hysteresis, the output would be a function of the input, and the loop would be a single curve. The height of the loop at a given input is the difference between the forward stroke and the backward stroke"
             (in_brackets(facts.record.unit.as_deref())) ". The figure on the right shows the residuals over the same input."
         }
         (loops_of_files(&figures.signals))

@@ -37,7 +37,7 @@ pub(super) fn find(signal: &[f64], others: &[&Companion], few: f64) -> Option<Fo
     let longest = samples.iter().map(ExactSizeIterator::len).max()?;
     Some(Found {
         message: format!(
-            "stuck {}: identical to the bit for up to {longest} samples while other signals move; {:.2} % of the samples",
+            "stuck {}: bit-identical for up to {longest} samples while other signals move; {:.2} % of the samples",
             times(samples.len()),
             100.0 * share
         ),

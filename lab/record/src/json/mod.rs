@@ -10,6 +10,7 @@ mod value;
 
 use super::error::{shown, RecordError, NAME_LENGTH};
 use super::limits::PIECES;
+use super::scale::counted;
 use super::MIN_SAMPLES;
 use std::collections::HashMap;
 use value::{values, without_nan, Cell, Json};
@@ -278,7 +279,10 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             let message = match own.names.len() {
                 0 => "the rows of the JSON have no names; --names t,x,f names their columns"
                     .to_owned(),
-                count => format!("the row has {width} cells, but there are {count} names"),
+                count => format!(
+                    "the row has {}, but there are {count} names",
+                    counted(width, "cell")
+                ),
             };
             return Err(RecordError::at(1, message));
         }
@@ -305,8 +309,8 @@ fn of_rows(mut own: Rows, names: &[String]) -> Result<Table, RecordError> {
             }
             Json::List(values) => {
                 let message = format!(
-                    "the row has {} cells, but there are {} names",
-                    values.len(),
+                    "the row has {}, but there are {} names",
+                    counted(values.len(), "cell"),
                     own.names.len()
                 );
                 return Err(RecordError::at(row + 1, message));

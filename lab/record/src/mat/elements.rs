@@ -6,6 +6,7 @@
 //! of bytes.
 
 use crate::limits::{BYTES, DEPTH};
+use crate::scale::counted;
 use crate::vectors::Value;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
@@ -176,9 +177,9 @@ fn matrix(bytes: &[u8], order: Order, depth: usize) -> Result<(String, Value), D
             let values = numbers(&parts.expect("values")?, order)?;
             if values.len() != count {
                 return Err(damaged(&format!(
-                    "`{}` has {} values for {count} places",
+                    "`{}` has {} for {count} places",
                     name.escape_debug(),
-                    values.len()
+                    counted(values.len(), "value")
                 )));
             }
             Value::Numbers { dims, values }

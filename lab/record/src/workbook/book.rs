@@ -184,7 +184,8 @@ impl<'a> Book<'a> {
             "b" | "n" if text.trim().is_empty() => String::new(),
             "n" => {
                 let number = text.trim().parse();
-                let number = number.map_err(|_| damaged("a number is not one"))?;
+                let number =
+                    number.map_err(|_| damaged("a numeric cell does not contain a number"))?;
                 let style = self.styles.get(cell.style).copied();
                 styles::written(number, style.unwrap_or(Style::Number), self.is_1904)
             }
@@ -281,7 +282,7 @@ impl Place {
 fn whole(text: &str) -> Result<usize, Failure> {
     let own = text.parse().ok();
     let own = own.filter(|row| (1..=1 << 20).contains(row));
-    own.ok_or_else(|| damaged("a row has a number beyond 1 to 1048576"))
+    own.ok_or_else(|| damaged("a row number is outside 1 to 1048576"))
 }
 
 /// The texts of a part `sharedStrings.xml`.

@@ -421,7 +421,7 @@ fn assumptions() -> Vec<&'static str> {
     let certificate = bowden_bound::Certificate { kind, value: 0.0 };
     let mut all = certificate.assumptions().to_vec();
     all.push(
-        "the adaptation gains and the leakages [1/s] are at most 2^30, and each prior is within its bounds",
+        "the adaptation gains and the leakage rates [1/s] are at most 2^30, and each prior is within its bounds",
     );
     all
 }

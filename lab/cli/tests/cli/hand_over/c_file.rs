@@ -226,7 +226,7 @@ fn a_file_name_without_a_letter_is_refused_in_one_line_that_says_which_work() {
     }
     // It would have the functions of the library, as bowden_model.h would.
     let words = written(&text, folder.root(), "bowden-model.h").unwrap_err();
-    assert!(words.contains("a name of the library"), "{words}");
+    assert!(words.contains("the library uses this name"), "{words}");
     for (name, prefix) in [
         ("1a.h", "model_1a"),
         ("µm.h", "um"),

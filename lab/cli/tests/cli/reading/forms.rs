@@ -82,7 +82,7 @@ fn an_option_gives_a_unit_and_a_segment() {
     let place = format!("{path}:2562: column `tick`: ");
     assert_eq!(
         line,
-        format!("bowden: {place}the file contains two records: the column names are repeated, and the time restarts from 9.99609375 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)")
+        format!("bowden: {place}the file contains two records: the column names are repeated, and the time jumps back from 9.99609375 to 0 s; --segment N reads one of 2 segments (segment 2 begins here)")
     );
     let text = said(&[
         "identify",

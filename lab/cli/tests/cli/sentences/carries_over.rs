@@ -117,7 +117,7 @@ fn noise_that_is_a_little_larger_on_a_short_held_out_part_is_noise() {
     assert!(held_out > 1.2 * closed.json["noise_floor"].as_f64().unwrap());
     assert_eq!(closed.names(), ["coulomb", "viscous"]);
     assert_eq!(closed.verdict(), "explained");
-    closed.says(&["The residual is the sensor's noise."]);
+    closed.says(&["The residual is sensor noise."]);
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn a_sound_record_is_explained_and_the_sentence_has_the_figures_of_the_line_abov
             percent("baseline"),
             percent("final")
         ),
-        "The residual is the sensor's noise.",
+        "The residual is sensor noise.",
     ]);
     for segment in ["fit", "held_out"] {
         let floors = closed.json["final"]["rmse"][segment].as_f64().unwrap()

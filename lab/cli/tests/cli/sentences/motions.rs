@@ -56,7 +56,7 @@ fn a_cell_that_warms_up_is_asked_about_where_creep_is_named() {
         "{}",
         closed.sentence()
     );
-    closed.says(&["Is it a drift of `f`", "warms up"]);
+    closed.says(&["Is this a drift of `f`", "warms up"]);
 }
 
 /// The clamp has slipped by 0.8 N of the spring, and stays so.

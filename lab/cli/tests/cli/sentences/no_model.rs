@@ -263,7 +263,7 @@ fn a_model_of_the_load_that_reads_no_torque_is_called_one_of_the_load() {
     assert_eq!(closed.names(), ["gravity"]);
     closed.says(&[
         "Nearly all of the model's output comes from `phi_p` and none from `tau_i`",
-        "so the model describes this load and no other",
+        "so the model describes only this load.",
     ]);
 }
 

@@ -214,7 +214,7 @@ impl Aim {
         let (now, then) = (self.correlation_now, self.correlation_then);
         match &self.rival {
             Some(rival) => format!(
-                "{what} from {rival}: the wrong term has {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
+                "{what} from {rival}: with the wrong term, {:.1} → {:.1} times the present error (projected correlation {now:.3} → {then:.3})",
                 self.left_now, self.left_then
             ),
             None => format!(

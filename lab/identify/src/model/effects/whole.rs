@@ -109,7 +109,7 @@ pub(super) const WHOLE: &[Entry] = &[
         bounds: &[Bounds::FitSegment],
         several: true,
         of_the_record: Some(
-            "a step at one moment of this record (the model describes the time after the step)",
+            "a step at one time in this record (the model describes the time after the step)",
         ),
         shown_by: "the same amount of motion before and after the step",
         ..PLAIN
