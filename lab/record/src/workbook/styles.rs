@@ -6,8 +6,6 @@ use crate::clock_time::length;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-const DAY: f64 = 86_400_000_000.0;
-
 /// The style in which a cell shows its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Style {
@@ -79,8 +77,10 @@ fn of_code(code: &str) -> Style {
 /// A number as text. Time stamps have a resolution of one microsecond, which is the resolution of
 /// days in a double.
 pub(super) fn written(number: f64, style: Style, is_1904: bool) -> String {
-    let micros = (number * DAY).round();
-    let days = (micros / DAY).floor();
+    // A day in microseconds.
+    let day = 86_400_000_000.0;
+    let micros = (number * day).round();
+    let days = (micros / day).floor();
     match style {
         Style::Duration => return (micros / 1e6).to_string(),
         // Excel's last day is 9999-12-31.
@@ -92,7 +92,7 @@ pub(super) fn written(number: f64, style: Style, is_1904: bool) -> String {
         let (year, month, day) = date(days as i64, is_1904);
         let _ = write!(text, "{year:04}-{month:02}-{day:02}T");
     }
-    let micros = (micros - days * DAY) as u64;
+    let micros = (micros - days * day) as u64;
     let seconds = micros / 1_000_000;
     let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
     let _ = write!(
