@@ -115,7 +115,7 @@ fn tightest(law: &str, found: Result<Tightest<f64>, Error>) -> Promise {
 }
 
 /// The assumptions of the machine-checked box: a constant reference and a constant disturbance.
-const RESTING: &str = "first-order form at 1 kHz, constant |D| <= 8 N·m, g 20 %";
+const RESTING: &str = "first-order form, 1 kHz, constant |D| <= 8 N·m, g 20 %";
 
 /// The law of the proofs: the setup's gains in first-order form, g = alpha·beta_hat in 0.8..=1.2.
 fn resting(settings: &AdaptiveSettings<f64, 2>) -> Result<Adaptive<f64, 0>, Error> {
@@ -218,7 +218,7 @@ pub fn all(setup: &Setup) -> Result<Vec<Promise>, String> {
             .and_then(|law| PeakContinuous::try_new(&law, &known))
             .map(|c| c.certificate());
         lines.push(line(&name, "peak-continuous", continuous));
-        let name = format!("first-order form at 1 kHz, bounded, beta within {percent:.0} %");
+        let name = format!("first-order form, 1 kHz, bounded, beta within {percent:.0} %");
         let sampled = boxed(spread, lag, epsilon);
         let peak = sampled.and_then(|law| PeakSampled::try_new(&law, &known));
         lines.push(line(&name, "peak-sampled", peak.map(|c| c.certificate())));
