@@ -230,15 +230,20 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
     );
 }
 
+const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+
+fn relation(id: &str, kind: &str, target: &str) -> String {
+    format!("<Relationship Id=\"{id}\" Type=\"{OFFICE}/{kind}\" Target=\"{target}\"/>")
+}
+
+fn relations(all: &[String]) -> String {
+    format!("<Relationships>{}</Relationships>", all.concat())
+}
+
 /// Names with a prefix, targets from the root, texts in a part of their own with formats and a
 /// pronunciation, cells and rows without a place, and dates from 1904.
 #[test]
 fn what_other_writers_do_is_read() {
-    let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
-    let relation = |id: &str, kind: &str, target: &str| {
-        format!("<Relationship Id=\"{id}\" Type=\"{office}/{kind}\" Target=\"{target}\"/>")
-    };
-    let relations = |all: &[String]| format!("<Relationships>{}</Relationships>", all.concat());
     let row = |(i, row): (usize, &String)| {
         let days = 44_620.0 + i as f64 * 0.01 / 86_400.0;
         let cells = row.split(',').skip(1);
@@ -311,7 +316,10 @@ fn what_other_writers_do_is_read() {
         .map(|own| own.name)
         .collect();
     assert_eq!(names, ["t", "x", "f", "is ✓ & on"]);
+}
 
+#[test]
+fn a_binary_workbook_is_named() {
     let binary = [(
         "_rels/.rels",
         relations(&[relation("a", "officeDocument", "xl/workbook.bin")]),
