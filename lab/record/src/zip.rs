@@ -33,31 +33,33 @@ pub(super) fn entries(bytes: &[u8]) -> Result<Vec<(String, usize)>, Damage> {
     Ok(all)
 }
 
-/// The packed size of a file and the position of its local header. A number that needs more than 32
-/// bits is in the extra field of ZIP64.
+/// The packed size of a file and the position of its local header, neither beyond the archive. A
+/// number that needs more than 32 bits is in the extra field of ZIP64.
 fn place(bytes: &[u8], entry: usize) -> Result<(usize, usize), Damage> {
+    let full = u32::MAX as usize;
     let mut fields = [0; 3];
     for (field, at) in fields.iter_mut().zip([24, 20, 42]) {
         *field = number::<4>(bytes, entry + at)?;
     }
-    let (name, extra) = (
-        number::<2>(bytes, entry + 28)?,
-        number::<2>(bytes, entry + 30)?,
-    );
-    let mut extra = slice(bytes, entry + 46 + name, extra)?;
-    while !extra.is_empty() {
-        let (kind, length) = (number::<2>(extra, 0)?, number::<2>(extra, 2)?);
-        let body = slice(extra, 4, length)?;
-        let long = fields
-            .iter_mut()
-            .filter(|field| kind == 1 && **field == u32::MAX as usize);
-        for (field, own) in long.zip(body.chunks_exact(8)) {
-            *field = number::<8>(own, 0)?;
+    if fields.contains(&full) {
+        let sizes = [28, 30].map(|at| number::<2>(bytes, entry + at));
+        let [name, extra] = sizes;
+        let mut extra = slice(bytes, entry + 46 + name?, extra?)?;
+        while !extra.is_empty() {
+            let (kind, length) = (number::<2>(extra, 0)?, number::<2>(extra, 2)?);
+            let (long, _) = slice(extra, 4, length)?.as_chunks();
+            let full = fields.iter_mut().filter(|own| kind == 1 && **own == full);
+            for (field, own) in full.zip(long) {
+                *field = usize::try_from(u64::from_le_bytes(*own)).unwrap_or(usize::MAX);
+            }
+            extra = &extra[4 + length..];
         }
-        extra = &extra[4 + length..];
     }
     let [_, packed, local] = fields;
-    Ok((packed, local))
+    match packed.max(local) <= bytes.len() {
+        true => Ok((packed, local)),
+        false => Err(damaged("the zip archive is truncated")),
+    }
 }
 
 /// The bytes of the file whose directory entry begins at `entry`, at most `left` bytes.
@@ -113,8 +115,9 @@ pub(super) fn slice(bytes: &[u8], at: usize, length: usize) -> Result<&[u8], Dam
 mod tests {
     use super::*;
 
-    /// An archive of one stored file whose directory entry has its numbers in the ZIP64 field.
-    fn long(text: &[u8]) -> Vec<u8> {
+    /// An archive of one stored file whose directory entry has its numbers in the ZIP64 field: the
+    /// size twice, and the position of the local header.
+    fn long(text: &[u8], numbers: [u64; 3]) -> Vec<u8> {
         let mut crc = Crc::new();
         crc.update(text);
         let check = crc.sum().to_le_bytes();
@@ -134,8 +137,8 @@ mod tests {
         entry.push(b'a');
         // An unknown field, then that of ZIP64: size, packed size, position.
         entry.extend([9, 0, 4, 0, 1, 2, 3, 4, 1, 0, 24, 0]);
-        for number in [text.len(), text.len(), 0] {
-            entry.extend((number as u64).to_le_bytes());
+        for number in numbers {
+            entry.extend(number.to_le_bytes());
         }
         bytes.extend(&entry);
         let end = bytes.len();
@@ -148,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_file_with_64_bit_numbers_is_unpacked() {
-        let bytes = long(b"t,x,f");
+        let bytes = long(b"t,x,f", [5, 5, 0]);
         let all = entries(&bytes).unwrap();
         assert_eq!(all.len(), 1);
         assert_eq!(unpacked(&bytes, all[0].1, 5).unwrap(), b"t,x,f");
@@ -157,5 +160,27 @@ mod tests {
         for cut in 0..bytes.len() - 22 {
             assert!(entries(&bytes[..cut]).is_err());
         }
+    }
+
+    #[test]
+    fn a_number_beyond_the_archive_is_an_error() {
+        for numbers in [[5, u64::MAX, 0], [5, 5, u64::MAX], [5, 5, 1 << 32]] {
+            let bytes = long(b"t,x,f", numbers);
+            let all = entries(&bytes).unwrap();
+            let error = unpacked(&bytes, all[0].1, 5).unwrap_err();
+            assert_eq!(error, "the file is damaged: the zip archive is truncated");
+        }
+    }
+
+    /// Archives are padded with extra fields that are none.
+    #[test]
+    fn an_extra_field_is_read_only_for_a_long_number() {
+        let mut bytes = long(b"t,x,f", [5, 5, 0]);
+        let entry = entries(&bytes).unwrap()[0].1;
+        for (at, number) in [(20, 5_u32), (24, 5), (42, 0)] {
+            bytes[entry + at..entry + at + 4].copy_from_slice(&number.to_le_bytes());
+        }
+        bytes[entry + 47..entry + 83].fill(0xff);
+        assert_eq!(unpacked(&bytes, entry, 5).unwrap(), b"t,x,f");
     }
 }
