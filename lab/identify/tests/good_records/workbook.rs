@@ -349,6 +349,10 @@ fn damage_to_a_workbook_is_refused() {
         line.starts_with("r.xlsx: the workbook is damaged: ") && !line.contains('\n'),
         "{line}"
     );
+    assert_eq!(
+        refusal(&zip(&[("_rels/.rels", Vec::new())], false)),
+        "r.xlsx: the workbook is damaged: a part is empty or is not a text"
+    );
     let wide = format!("t,x,f\n\n{}1", ",".repeat(256));
     assert_eq!(
         refusal(&workbook(&[("S", &wide)])),

@@ -45,7 +45,7 @@ pub(super) fn read(part: &[u8]) -> Result<Vec<Style>, Failure> {
 fn of_built_in(id: u32) -> Style {
     match id {
         46 => Style::Duration,
-        14..=22 | 27..=36 | 45 | 47 | 50..=58 => Style::Stamp,
+        14..=22 | 45 | 47 => Style::Stamp,
         _ => Style::Number,
     }
 }
