@@ -65,7 +65,7 @@ crate::checked::stored! {
     /// for k in 0..2000 {
     ///     let phase = (k % 1000) as f32 / 1000.0;
     ///     let at = IterativeLearningInput::new(phase, 20.0, 19.5); // [N·m], [N·m]
-    ///     let out = learning.step(&mut state, &at); // out.command into LoopSample
+    ///     let out = learning.step(&mut state, &at); // out.command is the feed-forward
     ///     // Held means no phase: after a few such samples, omit the feed-forward.
     ///     assert!(!matches!(out.status, Status::Held(_)));
     /// }

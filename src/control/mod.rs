@@ -12,7 +12,7 @@
 //! A bad sample holds the last good command. It leaves the state unchanged, except for the fault
 //! counter and the accumulated time of the bad samples. The [`Status`] reports the bad input. After
 //! too many bad samples, a [`Pid`], [`Adaptive`] or [`Relay`] applies the safe command of its
-//! [`Fallback`] until [`acknowledge`](Controller::acknowledge) is called. For any state, the
+//! [`Fallback`] until [`acknowledge`](PidState::acknowledge) is called. For any state, the
 //! command of these three controllers is finite and within the [`Limits`]. To reject finite but
 //! implausible numbers, pass each input through [`signal::Plausible`](crate::signal::Plausible).
 //!
@@ -28,16 +28,15 @@
 //! | [`IterativeLearning`] | feed-forward from the error of earlier cycles of a repeating task | |
 //! | [`Relay`] | relay experiment that measures the ultimate gain and period, for PI gains | |
 //!
-//! [`Controller`] is the common interface of [`Pid`] and [`Adaptive`]. [`law`] contains the
-//! equations of the adaptive law, one function for each term.
+//! [`law`] contains the equations of the adaptive law, one function for each term.
 
 mod adaptive;
 mod compensator;
-mod controller;
 pub mod law;
 mod learning;
 pub(crate) mod limits;
 mod observer;
+mod output;
 pub(crate) mod pid;
 mod relay;
 pub(crate) mod status;
@@ -51,10 +50,10 @@ pub use adaptive::{
 pub use compensator::{
     BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
 };
-pub use controller::{Controller, LoopSample, Output, Telemetry};
 pub use learning::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 pub use limits::Limits;
 pub use observer::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
+pub use output::{Output, Telemetry};
 pub use pid::{AntiWindup, DerivativeSource, Pid, PidInput, PidSettings, PidState, PidTerms};
 pub use relay::{PiGains, PiRule, Relay, RelaySettings, RelayState, Ultimate};
 pub use status::{Applied, Fallback, Status};

@@ -57,8 +57,8 @@ crate::checked::stored! {
     ///
     /// ```
     /// use bowden::control::{
-    ///     Controller, DisturbanceObserver, Fallback, Limits, LoopSample, NominalPlant, ObserverInput,
-    ///     ObserverState, Pid, PidSettings,
+    ///     DisturbanceObserver, Fallback, Limits, NominalPlant, ObserverInput, ObserverState, Pid,
+    ///     PidInput, PidSettings, PidState,
     /// };
     /// # fn main() -> Result<(), bowden::Error> {
     /// let plant = NominalPlant::try_new(0.6_f32, 25.5, 0.265)?;
@@ -67,12 +67,12 @@ crate::checked::stored! {
     /// let (limits, fallback) = (Limits::try_new(-20.0, 90.0)?, Fallback::try_new(20, 0.0)?);
     /// let pi = Pid::try_new(PidSettings::new(12.0, 60.0, limits, 0.005, fallback))?;
     ///
-    /// let (mut observed, mut state) = (ObserverState::new(), pi.start());
+    /// let (mut observed, mut state) = (ObserverState::new(), PidState::new());
     /// let (dt, measured) = (0.001, 3.0); // [s], [N·m]: each tick, from the clock and the sensor
-    /// let sent = Controller::command(&pi, &state); // the applied command of the last tick
+    /// let sent = state.command(); // the applied command of the last tick
     /// let seen = observer.step(&mut observed, &ObserverInput { dt, sent, measured });
-    /// let sample = LoopSample { feed_forward: seen.command, ..LoopSample::new(dt, 5.0, measured) };
-    /// let out = Controller::step(&pi, &mut state, &sample);
+    /// let sample = PidInput { feed_forward: seen.command, ..PidInput::new(dt, 5.0, measured) };
+    /// let out = pi.step(&mut state, &sample);
     /// assert!(limits.contains(out.command));
     /// # Ok(())
     /// # }

@@ -26,8 +26,7 @@ crate::data! {
         /// A bad sample: the state is unchanged, and the last good command is held.
         Held(Fault),
         /// Too many bad samples: the safe command is applied until
-        /// [`acknowledge`](crate::control::Controller::acknowledge), even if later samples are
-        /// good.
+        /// [`acknowledge`](crate::control::PidState::acknowledge), even if later samples are good.
         ///
         /// The value is the fault of the last of these samples, or the reason for the failure of a
         /// [`Relay`](crate::control::Relay) experiment.
@@ -203,8 +202,7 @@ crate::data! {
     /// ```
     ///
     /// These methods accept the response: [`Pid::applied`](super::Pid::applied),
-    /// [`AdaptiveState::applied`](super::AdaptiveState::applied),
-    /// [`Controller::applied`](super::Controller::applied) and
+    /// [`AdaptiveState::applied`](super::AdaptiveState::applied) and
     /// [`Compensator::applied`](super::Compensator::applied), which also corrects the hysteresis
     /// state. For a [`DisturbanceObserver`](super::DisturbanceObserver), pass the applied command
     /// as `sent`. For [`IterativeLearning`](super::IterativeLearning), set `learns` to `false`.

@@ -6,7 +6,7 @@
 /// effect! {
 ///     /// Documentation.
 ///     Name { shape: Range, Dimension; … }     or   Name;
-///     "name" in "family": "formula", Dimension, Mirror Reversal, reads Quantity …, memory;
+///     "name" in "family": "formula", Dimension, reads Quantity …, memory;
 ///     value(it, state, at) = the regressor of a sample;
 ///     further functions of the trait
 /// }
@@ -61,20 +61,19 @@ macro_rules! effect {
     };
 
     (@ $effect:ident, $own:ty, [$made:expr] { $($field:ident: $range:ident, $dimension:expr;)* }
-     $name:literal in $family:literal: $formula:literal, $unit:expr, $mirror:ident $reversal:ident,
+     $name:literal in $family:literal: $formula:literal, $unit:expr,
      $(stage $stage:ident,)? reads $($reads:ident)* $(, $memory:ident)?;
      value($it:pat_param, $state:pat_param, $at:pat_param) = $value:expr; $($more:tt)*
     ) => {
         impl<T: $crate::Real> $crate::effect::Regressor<T> for $own {
             const INFO: &'static $crate::effect::Info = {
-                use $crate::effect::{Info, Parity, Quantity, Stage, Symmetry};
+                use $crate::effect::{Info, Quantity, Stage};
                 const READS: &[Quantity] = &[$(Quantity::$reads),*];
                 &Info {
                     name: $name,
                     family: $family,
                     formula: $formula,
                     dimension: $unit,
-                    parity: Symmetry { mirror: Parity::$mirror, reversal: Parity::$reversal },
                     reads: READS,
                     memory: matches!(stringify!($($memory)?).len(), 1..),
                     shapes: &[$($crate::effect::ShapeInfo {

@@ -14,7 +14,7 @@ effect! {
     /// models, analysis tools and compensation methods for the control of machines
     /// with friction", *Automatica* 30(7), 1994.
     Viscous;
-    "viscous" in "viscous": "v", Dimension::VELOCITY, Odd Odd, reads Velocity;
+    "viscous" in "viscous": "v", Dimension::VELOCITY, reads Velocity;
     value(_, _, at) = at.motion.velocity;
 }
 
@@ -26,8 +26,7 @@ effect! {
     /// Source: K. Worden, G. R. Tomlinson, *Nonlinearity in Structural Dynamics*,
     /// 2001, chapter 2.
     DragQuadratic;
-    "drag-quadratic" in "drag": "v·|v|", Dimension { channel: 2, time: -2, ..Dimension::ONE },
-        Odd Odd, reads Velocity;
+    "drag-quadratic" in "drag": "v·|v|", Dimension { channel: 2, time: -2, ..Dimension::ONE }, reads Velocity;
     value(_, _, at) = at.motion.velocity * at.motion.velocity.abs();
 }
 
@@ -36,8 +35,7 @@ effect! {
     ///
     /// Formula: `v³`. Source: see [`DragQuadratic`](super::DragQuadratic).
     DragCubic;
-    "drag-cubic" in "drag": "v³", Dimension { channel: 3, time: -3, ..Dimension::ONE },
-        Odd Odd, reads Velocity;
+    "drag-cubic" in "drag": "v³", Dimension { channel: 3, time: -3, ..Dimension::ONE }, reads Velocity;
     value(_, _, at) = at.motion.velocity * at.motion.velocity * at.motion.velocity;
 }
 
@@ -71,7 +69,7 @@ effect! {
         /// Exponent.
         a: Positive, Dimension::ONE;
     }
-    "power-law" in "power-law": "sgn(v)·|v|^a", Dimension::ONE, Odd Odd, reads Velocity;
+    "power-law" in "power-law": "sgn(v)·|v|^a", Dimension::ONE, reads Velocity;
     value(it, _, at) = {
         let v = at.motion.velocity;
         let size = v.abs().short_pow(it.a);
@@ -102,7 +100,7 @@ effect! {
         /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
-    "coulomb" in "coulomb": "tanh(v/v_e)", Dimension::ONE, Odd Odd, reads Velocity;
+    "coulomb" in "coulomb": "tanh(v/v_e)", Dimension::ONE, reads Velocity;
     value(it, _, at) = sign(at.motion.velocity, it.v_e);
 }
 
@@ -134,8 +132,7 @@ effect! {
         /// Exponent.
         a: Positive, Dimension::ONE;
     }
-    "stribeck" in "stribeck": "tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)", Dimension::ONE,
-        Odd Odd, reads Velocity;
+    "stribeck" in "stribeck": "tanh(v/(0.1·v_s))·exp(−|v/v_s|^a)", Dimension::ONE, reads Velocity;
     value(it, _, at) = {
         let ratio = at.motion.velocity / it.v_s;
         (T::from_f64(10.0) * ratio).short_tanh() * (-ratio.abs().short_pow(it.a)).short_exp()
@@ -159,8 +156,7 @@ effect! {
         /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
-    "load-friction" in "load-friction": "|load|·tanh(v/v_e)", Dimension::LOAD,
-        Odd Odd, reads Load Velocity;
+    "load-friction" in "load-friction": "|load|·tanh(v/v_e)", Dimension::LOAD, reads Load Velocity;
     value(it, _, at) = at.load.abs() * sign(at.motion.velocity, it.v_e);
 }
 
@@ -191,8 +187,7 @@ effect! {
         /// Friction coefficient of the wrap \[1/channel unit\].
         mu: Positive, Dimension { channel: -1, ..Dimension::ONE };
     }
-    "capstan" in "capstan": "load·(exp(mu·x)−1)/mu·tanh(v/v_e)", Dimension { channel: 1, load: 1, ..Dimension::ONE },
-        Neither Odd, reads Load Position Velocity;
+    "capstan" in "capstan": "load·(exp(mu·x)−1)/mu·tanh(v/v_e)", Dimension { channel: 1, load: 1, ..Dimension::ONE }, reads Load Position Velocity;
     value(it, _, at) = at.load * sign(at.motion.velocity, it.v_e) * growth(at.motion.position, it.mu);
 }
 
@@ -228,8 +223,7 @@ effect! {
         /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
-    "drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v > 0", Dimension::LOAD,
-        Odd Neither, reads Load Velocity;
+    "drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v > 0", Dimension::LOAD, reads Load Velocity;
     value(it, _, at) = {
         if sense(at) > 0 {
             at.load.abs() * sign(at.motion.velocity, it.v_e)
@@ -254,8 +248,7 @@ effect! {
         /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
-    "back-drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v < 0", Dimension::LOAD,
-        Odd Neither, reads Load Velocity;
+    "back-drive-friction" in "direction": "|load|·tanh(v/v_e) where load·v < 0", Dimension::LOAD, reads Load Velocity;
     value(it, _, at) = {
         if sense(at) < 0 {
             at.load.abs() * sign(at.motion.velocity, it.v_e)
@@ -294,8 +287,7 @@ effect! {
         /// Velocity at which the friction reaches 76 % of its high-speed value \[channel unit/s\].
         v_e: Positive, Dimension::VELOCITY;
     }
-    "position-friction" in "position-friction": "x·tanh(v/v_e)", Dimension::POSITION,
-        Even Odd, reads Position Velocity;
+    "position-friction" in "position-friction": "x·tanh(v/v_e)", Dimension::POSITION, reads Position Velocity;
     value(it, _, at) = at.motion.position * sign(at.motion.velocity, it.v_e);
 }
 
@@ -304,8 +296,7 @@ effect! {
     ///
     /// Formula: `eta·x`. Source: see [`PositionFriction`](super::PositionFriction).
     PositionHysteresis;
-    "position-hysteresis" in "position-friction": "eta·x", Dimension::POSITION,
-        Even Even, reads Eta Position;
+    "position-hysteresis" in "position-friction": "eta·x", Dimension::POSITION, reads Eta Position;
     value(_, _, at) = at.eta * at.motion.position;
 }
 
@@ -320,7 +311,7 @@ effect! {
     /// loop, J. Song, A. Der Kiureghian, "Generalized Bouc-Wen model for highly
     /// asymmetric hysteresis", *Journal of Engineering Mechanics* 132(6), 2006.
     AsymmetryViscous;
-    "asymmetry-viscous" in "asymmetry": "|v|", Dimension::VELOCITY, Even Even, reads Velocity;
+    "asymmetry-viscous" in "asymmetry": "|v|", Dimension::VELOCITY, reads Velocity;
     value(_, _, at) = at.motion.velocity.abs();
 }
 
@@ -329,8 +320,7 @@ effect! {
     ///
     /// Formula: `v²`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryDrag;
-    "asymmetry-drag" in "asymmetry": "v²", Dimension { channel: 2, time: -2, ..Dimension::ONE },
-        Even Even, reads Velocity;
+    "asymmetry-drag" in "asymmetry": "v²", Dimension { channel: 2, time: -2, ..Dimension::ONE }, reads Velocity;
     value(_, _, at) = at.motion.velocity * at.motion.velocity;
 }
 
@@ -339,7 +329,7 @@ effect! {
     ///
     /// Formula: `|eta|`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEta;
-    "asymmetry-eta" in "asymmetry": "|eta|", Dimension::ONE, Even Even, reads Eta;
+    "asymmetry-eta" in "asymmetry": "|eta|", Dimension::ONE, reads Eta;
     value(_, _, at) = at.eta.abs();
 }
 
@@ -348,6 +338,6 @@ effect! {
     ///
     /// Formula: `eta²`. Source: see [`AsymmetryViscous`](super::AsymmetryViscous).
     AsymmetryEtaSquared;
-    "asymmetry-eta-squared" in "asymmetry": "eta²", Dimension::ONE, Even Even, reads Eta;
+    "asymmetry-eta-squared" in "asymmetry": "eta²", Dimension::ONE, reads Eta;
     value(_, _, at) = at.eta * at.eta;
 }

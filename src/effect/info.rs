@@ -1,4 +1,4 @@
-//! Properties of an effect, such as its name, unit, symmetries and inputs.
+//! Properties of an effect, such as its name, unit and inputs.
 
 use super::bounds::saturate;
 use super::{EffectState, Inputs};
@@ -53,36 +53,6 @@ impl Dimension {
             input: 0,
         }
     }
-}
-
-/// Behaviour of a regressor when its inputs change sign.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Parity {
-    /// The regressor keeps its sign.
-    Even,
-    /// The regressor changes its sign.
-    Odd,
-    /// The regressor is neither even nor odd.
-    Neither,
-}
-
-/// Symmetries of a regressor.
-///
-/// ```
-/// use bowden::effect::{AsymmetryViscous, Effect, Parity};
-/// let parity = Effect::<f64>::from(AsymmetryViscous).info().parity;
-/// assert_eq!(parity.mirror, Parity::Even); // |v|: breaks the mirror symmetry of friction
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Symmetry {
-    /// Parity if all signed signals (motion, input, load, eta and output) change sign along the
-    /// whole path. Times keep their sign.
-    pub mirror: Parity,
-    /// Parity if only v changes sign, at one instant. For an effect with memory, this is
-    /// [`Parity::Neither`].
-    pub reversal: Parity,
 }
 
 /// One quantity of [`Inputs`].
@@ -154,8 +124,6 @@ pub struct Info {
     pub formula: &'static str,
     /// Unit of the regressor.
     pub dimension: Dimension,
-    /// Symmetries of the regressor.
-    pub parity: Symmetry,
     /// The quantities that the effect reads. If one of these quantities is not finite, the
     /// regressor is 0.
     pub reads: &'static [Quantity],

@@ -28,8 +28,7 @@ effect! {
         /// Half-width of the gap \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
-    "backlash" in "backlash": "play(x; r) − x", Dimension::POSITION,
-        Odd Neither, reads Position, memory;
+    "backlash" in "backlash": "play(x; r) − x", Dimension::POSITION, reads Position, memory;
     value(it, state, at) = {
         let x = at.motion.position;
         let before = state.memory.map_or(x, |[play, ..]| play);
@@ -58,8 +57,7 @@ effect! {
         /// Half-width of the gap \[input unit\].
         r: Positive, Dimension::POSITION;
     }
-    "play-in-series" in "backlash": "play(x; r) − x, added to the input", Dimension::POSITION,
-        Odd Neither, stage Input, reads Position, memory;
+    "play-in-series" in "backlash": "play(x; r) − x, added to the input", Dimension::POSITION, stage Input, reads Position, memory;
     value(it, state, at) = Backlash { r: it.r }.value(state, at);
 }
 
@@ -77,7 +75,7 @@ effect! {
         /// Half-width of the gap \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
-    "dead-zone" in "backlash": "x − clamp(x, −r, r)", Dimension::POSITION, Odd Even, reads Position;
+    "dead-zone" in "backlash": "x − clamp(x, −r, r)", Dimension::POSITION, reads Position;
     value(it, _, at) = at.motion.position - clamp(at.motion.position, -it.r, it.r);
 }
 
@@ -102,8 +100,7 @@ effect! {
         /// Displacement at which the spring slips \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
-    "presliding" in "presliding": "stop(x; r)/r", Dimension::ONE,
-        Odd Neither, reads Position, memory;
+    "presliding" in "presliding": "stop(x; r)/r", Dimension::ONE, reads Position, memory;
     value(it, state, at) = {
         let x = at.motion.position;
         let [before, stretch, ..] = state.memory.unwrap_or(fresh(x));
@@ -134,8 +131,7 @@ effect! {
         /// Distance over which z completes 63 % of its change \[channel unit\].
         r: Positive, Dimension::POSITION;
     }
-    "presliding-dahl" in "presliding": "dahl(x; r)", Dimension::ONE,
-        Odd Neither, reads Position, memory;
+    "presliding-dahl" in "presliding": "dahl(x; r)", Dimension::ONE, reads Position, memory;
     value(it, state, at) = {
         let x = at.motion.position;
         let [before, z, carry, _] = state.memory.unwrap_or(fresh(x));
@@ -179,8 +175,7 @@ effect! {
         /// Work after which the change reaches 63 % \[input unit\].
         w_c: Positive, Dimension { input: 1, ..Dimension::ONE };
     }
-    "degradation" in "degradation": "eta·(1−exp(−∫|eta|·|dx|/w_c))", Dimension::ONE,
-        Odd Neither, reads Eta Input, memory;
+    "degradation" in "degradation": "eta·(1−exp(−∫|eta|·|dx|/w_c))", Dimension::ONE, reads Eta Input, memory;
     value(it, state, at) = {
         let (x, eta) = (at.input.position, at.eta);
         let fresh = [x, eta, T::zero(), T::zero()];
@@ -213,8 +208,7 @@ effect! {
         /// Time constant \[s\].
         tau: Positive, Dimension::TIME;
     }
-    "creep" in "creep": "lowpass(x; tau)", Dimension::POSITION,
-        Odd Neither, reads Position Dt, memory;
+    "creep" in "creep": "lowpass(x; tau)", Dimension::POSITION, reads Position Dt, memory;
     value(it, state, at) = low_pass(state, at.motion.position, || it.share(at.dt));
 
     #[inline]
@@ -275,8 +269,7 @@ effect! {
         /// Half of the additional increase while w returns to zero \[1/channel unit\].
         beta: Positive, PER_POSITION;
     }
-    "hardening" in "hardening": "w(x; g, beta)", Dimension::POSITION,
-        Odd Neither, reads Position, memory;
+    "hardening" in "hardening": "w(x; g, beta)", Dimension::POSITION, reads Position, memory;
     value(it, state, at) = {
         let (zero, x) = (T::zero(), at.motion.position);
         let [before, w, ..] = state.memory.unwrap_or([x, zero, zero, zero]);
@@ -331,8 +324,7 @@ effect! {
         /// Time constant \[s\].
         tau: Positive, Dimension::TIME;
     }
-    "lag" in "lag": "lowpass(output; tau) − output", Dimension::OUTPUT,
-        Odd Neither, reads Output Dt, memory;
+    "lag" in "lag": "lowpass(output; tau) − output", Dimension::OUTPUT, reads Output Dt, memory;
     value(it, state, at) = low_pass(state, at.output, || it.share(at.dt)) - at.output;
 
     #[inline]
@@ -383,8 +375,7 @@ effect! {
     /// expansion `y(t − T) = y − T·dy/dt`, K. J. Åström, R. M. Murray, *Feedback Systems*, 2008,
     /// chapter 9.
     Delay;
-    "delay" in "delay": "−d(output)/dt", Dimension { output: 1, time: -1, ..Dimension::ONE },
-        Odd Neither, reads Output Dt, memory;
+    "delay" in "delay": "−d(output)/dt", Dimension { output: 1, time: -1, ..Dimension::ONE }, reads Output Dt, memory;
     value(_, state, at) = {
         let Some([before, ..]) = state.memory else {
             state.memory = Some([at.output, at.output, T::zero(), T::zero()]);

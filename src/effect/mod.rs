@@ -2,9 +2,8 @@
 //!
 //! Each effect defines a *regressor*, a function of the motion, the load and the hysteresis state.
 //! A term of a model is a gain times a regressor. A fit identifies the gain. Each effect has its
-//! own type, and [`Effect`] can hold any effect. [`Info`] gives the formula, unit, symmetries and
-//! shape parameters of an effect. The symmetries show which effects can explain a residual, and
-//! which experiment separates two effects.
+//! own type, and [`Effect`] can hold any effect. [`Info`] gives the formula, unit and shape
+//! parameters of an effect.
 //!
 //! If the arithmetic overflows, a regressor saturates at the largest finite value.
 
@@ -21,7 +20,7 @@ mod memory;
 mod signal;
 mod spring;
 
-pub use info::{Dimension, Info, Parity, Quantity, Range, Regressor, ShapeInfo, Symmetry};
+pub use info::{Dimension, Info, Quantity, Range, Regressor, ShapeInfo};
 pub use inputs::{EffectState, Inputs, Motion};
 
 use crate::{Error, Real};

@@ -11,7 +11,7 @@ effect! {
     ///
     /// Source: L. Ljung, *System Identification*, 1999.
     Offset;
-    "offset" in "offset": "1", Dimension::ONE, Even Even, reads;
+    "offset" in "offset": "1", Dimension::ONE, reads;
     value(_, _, _) = T::one();
 }
 
@@ -22,7 +22,7 @@ effect! {
     ///
     /// Source: L. Ljung, *System Identification*, 1999.
     Gain;
-    "gain" in "gain": "load", Dimension::LOAD, Odd Even, reads Load;
+    "gain" in "gain": "load", Dimension::LOAD, reads Load;
     value(_, _, at) = at.load;
 }
 
@@ -34,8 +34,7 @@ effect! {
     /// Source: I. Newton, *Principia*, 1687; as an identification regressor,
     /// W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002.
     Inertia;
-    "inertia" in "inertia": "a", Dimension { channel: 1, time: -2, ..Dimension::ONE },
-        Odd Even, reads Acceleration;
+    "inertia" in "inertia": "a", Dimension { channel: 1, time: -2, ..Dimension::ONE }, reads Acceleration;
     value(_, _, at) = at.motion.acceleration;
 }
 
@@ -47,7 +46,7 @@ effect! {
     /// Source: J. S. Bendat, A. G. Piersol, *Random Data*, 2010, chapter 10 (trend
     /// removal).
     Drift;
-    "drift" in "drift": "t", Dimension::TIME, Even Even, reads Time;
+    "drift" in "drift": "t", Dimension::TIME, reads Time;
     value(_, _, at) = at.time;
 }
 
@@ -69,7 +68,7 @@ effect! {
         /// Phase at t = 0 \[rad\].
         psi: Finite, Dimension::ONE;
     }
-    "tone" in "tone": "sin(2·pi·f·t + psi)", Dimension::ONE, Even Even, reads Time;
+    "tone" in "tone": "sin(2·pi·f·t + psi)", Dimension::ONE, reads Time;
     value(it, _, at) = {
         let turns = it.f * at.time;
         (T::from_f64(TAU) * turns + it.psi).sin()
@@ -94,7 +93,7 @@ effect! {
         /// Time of the step \[s\].
         t_s: Finite, Dimension::TIME;
     }
-    "pretension" in "pretension": "1 where t ≥ t_s", Dimension::ONE, Even Even, reads Time;
+    "pretension" in "pretension": "1 where t ≥ t_s", Dimension::ONE, reads Time;
     value(it, _, at) = {
         if at.time >= it.t_s {
             T::one()
@@ -121,7 +120,7 @@ effect! {
         /// Reference temperature \[channel unit\].
         t_ref: Finite, Dimension::POSITION;
     }
-    "temperature" in "temperature": "x − t_ref", Dimension::POSITION, Neither Even, reads Position;
+    "temperature" in "temperature": "x − t_ref", Dimension::POSITION, reads Position;
     value(it, _, at) = at.motion.position - it.t_ref;
 }
 
@@ -132,7 +131,6 @@ effect! {
     ///
     /// Source: L. Ljung, *System Identification*, 1999 (systems with several inputs).
     Crosstalk;
-    "crosstalk" in "crosstalk": "x of another channel", Dimension::POSITION,
-        Odd Even, reads Position;
+    "crosstalk" in "crosstalk": "x of another channel", Dimension::POSITION, reads Position;
     value(_, _, at) = at.motion.position;
 }

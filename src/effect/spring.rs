@@ -13,7 +13,7 @@ effect! {
     /// [`Hinge`](super::Hinge), S. W. Shaw, P. J. Holmes, "A periodically forced piecewise linear
     /// oscillator", *Journal of Sound and Vibration* 90(1), 1983.
     StiffnessLinear;
-    "stiffness-linear" in "stiffness": "x", Dimension::POSITION, Odd Even, reads Position;
+    "stiffness-linear" in "stiffness": "x", Dimension::POSITION, reads Position;
     value(_, _, at) = at.motion.position;
 }
 
@@ -22,8 +22,7 @@ effect! {
     ///
     /// Formula: `x²`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     StiffnessQuadratic;
-    "stiffness-quadratic" in "stiffness": "x²", Dimension { channel: 2, ..Dimension::ONE },
-        Even Even, reads Position;
+    "stiffness-quadratic" in "stiffness": "x²", Dimension { channel: 2, ..Dimension::ONE }, reads Position;
     value(_, _, at) = at.motion.position * at.motion.position;
 }
 
@@ -32,8 +31,7 @@ effect! {
     ///
     /// Formula: `x³`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     StiffnessCubic;
-    "stiffness-cubic" in "stiffness": "x³", Dimension { channel: 3, ..Dimension::ONE },
-        Odd Even, reads Position;
+    "stiffness-cubic" in "stiffness": "x³", Dimension { channel: 3, ..Dimension::ONE }, reads Position;
     value(_, _, at) = at.motion.position * at.motion.position * at.motion.position;
 }
 
@@ -42,8 +40,7 @@ effect! {
     ///
     /// Formula: `x·|x|`. Source: see [`StiffnessLinear`](super::StiffnessLinear).
     StiffnessProgressive;
-    "stiffness-progressive" in "stiffness": "x·|x|", Dimension { channel: 2, ..Dimension::ONE },
-        Odd Even, reads Position;
+    "stiffness-progressive" in "stiffness": "x·|x|", Dimension { channel: 2, ..Dimension::ONE }, reads Position;
     value(_, _, at) = at.motion.position * at.motion.position.abs();
 }
 
@@ -61,7 +58,7 @@ effect! {
         /// Position at which the spring engages \[channel unit\].
         x_h: Finite, Dimension::POSITION;
     }
-    "hinge" in "stiffness": "max(0, x − x_h)", Dimension::POSITION, Neither Even, reads Position;
+    "hinge" in "stiffness": "max(0, x − x_h)", Dimension::POSITION, reads Position;
     value(it, _, at) = above(at.motion.position, it.x_h);
 }
 
@@ -89,7 +86,7 @@ effect! {
     /// Harmonic Drive Gear Transmission", *IEEE Transactions on Robotics and Automation* 12(3),
     /// 1996.
     StretchLinear;
-    "stretch-linear" in "stretch": "s", Dimension::POSITION, Odd Even, reads Position;
+    "stretch-linear" in "stretch": "s", Dimension::POSITION, reads Position;
     value(_, _, at) = at.motion.position;
 }
 
@@ -98,8 +95,7 @@ effect! {
     ///
     /// Formula: `s³`. Source: see [`StretchLinear`](super::StretchLinear).
     StretchCubic;
-    "stretch-cubic" in "stretch": "s³", Dimension { channel: 3, ..Dimension::ONE },
-        Odd Even, reads Position;
+    "stretch-cubic" in "stretch": "s³", Dimension { channel: 3, ..Dimension::ONE }, reads Position;
     value(_, _, at) = at.motion.position * at.motion.position * at.motion.position;
 }
 
@@ -120,7 +116,7 @@ effect! {
         /// Angle of the lever from the vertical at x = 0 \[rad\].
         psi: Finite, Dimension::ONE;
     }
-    "gravity" in "gravity": "sin(x + psi)", Dimension::ONE, Neither Even, reads Position;
+    "gravity" in "gravity": "sin(x + psi)", Dimension::ONE, reads Position;
     value(it, _, at) = (at.motion.position + it.psi).sin();
 }
 
@@ -144,7 +140,7 @@ effect! {
         /// Phase at x = 0 \[rad\].
         psi: Finite, Dimension::ONE;
     }
-    "ripple" in "ripple": "sin(k·x + psi)", Dimension::ONE, Neither Even, reads Position;
+    "ripple" in "ripple": "sin(k·x + psi)", Dimension::ONE, reads Position;
     value(it, _, at) = (it.k * at.motion.position + it.psi).sin();
 }
 
@@ -165,8 +161,7 @@ effect! {
         /// Start of the saturation \[channel unit\].
         x_s: Finite, Dimension::POSITION;
     }
-    "saturation-upper" in "saturation": "max(0, x − x_s)", Dimension::POSITION,
-        Neither Even, reads Position;
+    "saturation-upper" in "saturation": "max(0, x − x_s)", Dimension::POSITION, reads Position;
     value(it, _, at) = above(at.motion.position, it.x_s);
 }
 
@@ -184,8 +179,7 @@ effect! {
         /// Start of the saturation \[channel unit\].
         x_s: Finite, Dimension::POSITION;
     }
-    "saturation-lower" in "saturation": "min(0, x − x_s)", Dimension::POSITION,
-        Neither Even, reads Position;
+    "saturation-lower" in "saturation": "min(0, x − x_s)", Dimension::POSITION, reads Position;
     value(it, _, at) = -above(-at.motion.position, -it.x_s);
 }
 
@@ -215,8 +209,7 @@ effect! {
         /// Length of the segment \[channel unit\].
         width: Positive, Dimension::POSITION;
     }
-    "curve-position" in "curve": "clip((x − from)/width, 0, 1)", Dimension::ONE,
-        Neither Even, reads Position;
+    "curve-position" in "curve": "clip((x − from)/width, 0, 1)", Dimension::ONE, reads Position;
     value(it, _, at) = share(at.motion.position, it.from, it.width);
 }
 
@@ -237,8 +230,7 @@ effect! {
         /// Length of the segment \[channel unit/s\].
         width: Positive, Dimension::VELOCITY;
     }
-    "curve-velocity" in "curve": "clip((v − from)/width, 0, 1)", Dimension::ONE,
-        Neither Neither, reads Velocity;
+    "curve-velocity" in "curve": "clip((v − from)/width, 0, 1)", Dimension::ONE, reads Velocity;
     value(it, _, at) = share(at.motion.velocity, it.from, it.width);
 }
 
@@ -273,7 +265,7 @@ effect! {
         /// Width in eta (dimensionless).
         w: Positive, Dimension::ONE;
     }
-    "pinching" in "pinching": "eta·exp(−(eta/w)²)", Dimension::ONE, Odd Even, reads Eta;
+    "pinching" in "pinching": "eta·exp(−(eta/w)²)", Dimension::ONE, reads Eta;
     value(it, _, at) = {
         let ratio = at.eta / it.w;
         at.eta * (-(ratio * ratio)).short_exp()
@@ -289,7 +281,7 @@ effect! {
     /// model for feedforward compensation of hysteresis in a piezomicropositioning
     /// actuator", *IEEE/ASME Transactions on Mechatronics* 18(5), 2013.
     Rate;
-    "rate" in "rate": "eta·v", Dimension::VELOCITY, Even Odd, reads Eta Velocity;
+    "rate" in "rate": "eta·v", Dimension::VELOCITY, reads Eta Velocity;
     value(_, _, at) = at.eta * at.motion.velocity;
 }
 
@@ -298,6 +290,6 @@ effect! {
     ///
     /// Formula: `eta·|v|`. Source: see [`Rate`](super::Rate).
     RateSymmetric;
-    "rate-symmetric" in "rate": "eta·|v|", Dimension::VELOCITY, Odd Even, reads Eta Velocity;
+    "rate-symmetric" in "rate": "eta·|v|", Dimension::VELOCITY, reads Eta Velocity;
     value(_, _, at) = at.eta * at.motion.velocity.abs();
 }

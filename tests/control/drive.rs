@@ -163,7 +163,7 @@ fn an_outer_loop_does_not_wind_up_while_the_inner_one_is_at_its_limit() {
                 .step(&mut inside, &PidInput::new(DT, wanted, speed))
                 .command;
             if tell {
-                Controller::applied(&outer, &mut out, inner.saturation(&inside));
+                outer.applied(&mut out, inner.saturation(&inside));
             }
             speed += DT * (torque - 0.2 * speed);
             position += DT * speed;

@@ -1,4 +1,4 @@
-//! Memory-less effects against closed forms; parity and unit as declared, for all.
+//! Memory-less effects against closed forms; unit as declared, for all.
 
 use super::*;
 
@@ -60,25 +60,6 @@ proptest! {
             let [value] = along(&make(info.name), &[at])[..] else { unreachable!() };
             // The forms differ in rounding alone, by a few ulp of terms up to 60.
             assert_relative_eq!(value, closed_form(info.name, &at), max_relative = 1e-12, epsilon = 1e-13);
-        }
-    }
-
-    #[test]
-    fn every_effect_answers_to_a_mirror_and_to_a_reversal_as_declared(path in prop::collection::vec(plausible(), 30)) {
-        let mirrored: Vec<_> = path.iter().map(mirror).collect();
-        let reversed: Vec<_> = path.iter().map(|at| with(*at, |at| {
-            at.motion.velocity = -at.motion.velocity;
-            at.input.velocity = -at.input.velocity;
-        })).collect();
-        for info in CATALOGUE.iter() {
-            let effect = make(info.name);
-            let (parity, plain) = (effect.info().parity, along(&effect, &path));
-            check(info.name, parity.mirror, &plain, &along(&effect, &mirrored));
-            if info.memory {
-                prop_assert_eq!(parity.reversal, Parity::Neither);
-            } else {
-                check(info.name, parity.reversal, &plain, &along(&effect, &reversed));
-            }
         }
     }
 
@@ -145,31 +126,6 @@ fn the_capstan_is_linear_in_the_wrap_as_mu_goes_to_zero() {
             assert_eq!(wrapped(mu, x), 2.0 * x, "{mu:e} {x}");
         }
     }
-}
-
-fn mirror(at: &Inputs<f64>) -> Inputs<f64> {
-    let flip = |of: Motion<f64>| moving(-of.position, -of.velocity, -of.acceleration);
-    with(*at, |at| {
-        (at.motion, at.input) = (flip(at.motion), flip(at.input));
-        (at.load, at.eta, at.output) = (-at.load, -at.eta, -at.output);
-    })
-}
-
-fn check(name: &str, symmetry: Parity, before: &[f64], after: &[f64]) {
-    let close = |sign: f64| {
-        let mut pairs = before.iter().zip(after);
-        pairs.all(|(a, b)| (a - sign * b).abs() < 1e-12)
-    };
-    let (even, odd) = (close(1.0), close(-1.0));
-    let found = match symmetry {
-        Parity::Even => even,
-        Parity::Odd => odd,
-        Parity::Neither => !even && !odd,
-    };
-    assert!(
-        found,
-        "{name}: {symmetry:?}, but even is {even} and odd is {odd}"
-    );
 }
 
 /// `units` are those of channel, load, time, output, input.

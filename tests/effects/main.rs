@@ -1,4 +1,4 @@
-//! The effects: closed forms, parity, units, memory, and inputs of any kind.
+//! The effects: closed forms, units, memory, and inputs of any kind.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod curve;

@@ -14,6 +14,7 @@ mod shared;
 mod stored;
 
 use bowden::control::*;
+use bowden_rig::{Controller, LoopSample};
 use proptest::prelude::*;
 use shared::*;
 

@@ -29,6 +29,7 @@
 
 mod checked;
 mod config;
+mod controller;
 mod drift;
 mod noise;
 mod plant;
@@ -36,6 +37,7 @@ mod reference;
 mod sensor;
 
 pub use config::RigConfig;
+pub use controller::{Controller, LoopSample};
 pub use drift::Drift;
 pub use noise::Noise;
 pub use reference::Reference;

@@ -9,8 +9,9 @@ mod pid;
 mod relay;
 
 use crate::{any, never_panics};
-use bowden::control::{Controller, Fallback, Limits, LoopSample, Pid, PidState, Status};
+use bowden::control::{Fallback, Limits, Pid, PidState, Status};
 use bowden::Real;
+use bowden_rig::{Controller, LoopSample};
 use std::hint::black_box;
 
 pub use adaptive::law;
