@@ -5,5 +5,6 @@
 
 pub mod control;
 pub mod effect;
+pub mod recursion;
 pub mod signal;
 pub mod tracking;

@@ -12,6 +12,8 @@ mod leakage;
 mod limited;
 mod line;
 mod liveness;
+#[path = "../../proofs/properties/recursion.rs"]
+mod recursion;
 #[path = "../shared/mod.rs"]
 mod shared;
 mod told;

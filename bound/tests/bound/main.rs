@@ -9,6 +9,8 @@ mod dyadic;
 mod figures;
 mod learning;
 mod observer;
+#[path = "../../../proofs/properties/recursion.rs"]
+mod recursion;
 mod refused;
 mod rounded;
 mod sampled;
