@@ -49,6 +49,7 @@ mod dyadic;
 mod halving;
 mod interval;
 mod learning;
+mod mean;
 mod observer;
 mod peak;
 mod per_step;

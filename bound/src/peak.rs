@@ -1,6 +1,6 @@
 //! The peak certificate in continuous time.
 
-use super::truth::{bounded, literal, loop_gain, mismatch};
+use super::truth::{bounded, literal, loop_gain, mismatch, scaled};
 use super::{Certificate, Interval, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
@@ -73,10 +73,7 @@ impl<T: Real> PeakContinuous<T> {
         let mut stiffness = g_kappa(settings.gain, squared, g.low);
         for at in [kink, g.high] {
             if g.low <= at && at <= g.high {
-                let here = g_kappa(settings.gain, squared, at);
-                if here < stiffness {
-                    stiffness = here;
-                }
+                stiffness = stiffness.min(g_kappa(settings.gain, squared, at));
             }
         }
         if stiffness <= T::zero() {
@@ -92,10 +89,7 @@ impl<T: Real> PeakContinuous<T> {
     /// The bound 2·S as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::PeakContinuous,
-            value: self.bound,
-        }
+        Certificate::new(Kind::PeakContinuous, self.bound)
     }
 }
 
@@ -117,11 +111,5 @@ pub(super) fn push<T: Real, const N: usize>(
     reference: T,
 ) -> T {
     let detuning = g.max_distance_from(T::one());
-    // Without a reference, an unbounded g does no harm: 0·inf would be NaN.
-    let reference = if reference == T::zero() {
-        T::zero()
-    } else {
-        detuning * reference
-    };
-    reference + mismatch(law, plant, g) + plant.delta
+    scaled(detuning, reference) + mismatch(law, plant, g) + plant.delta
 }

@@ -1,8 +1,8 @@
 //! Theorem 1 of Nguyen et al. (2018), with the paper's constants.
 
-use super::truth::{adapting, bounded, literal, stays, sum};
+use super::truth::{adapting, bounded, literal, slowest, sum, Adapting};
 use super::{Certificate, Interval, Kind, Plant};
-use bowden::control::{Adaptive, Leakage};
+use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
 /// The constants of Theorem 1, (34)-(38): phi, theta, delta and (1 + lambda)·delta.
@@ -60,31 +60,9 @@ impl<T: Real> Theorem1<T> {
         let settings = law.settings();
         let two = T::from_f64(2.0);
         let lambda = settings.lambda;
-        let mut theta = two * lambda;
-        let mut slowest = |rate: T| {
-            if rate < theta {
-                theta = rate;
-            }
-        };
-        slowest(two * settings.gain * lambda);
-        let leaking = [settings.beta, settings.delta];
-        for estimator in leaking.iter().chain(&settings.theta) {
-            // An estimate at the true value is no part of V, and a lower one is refused
-            // elsewhere.
-            if stays(estimator, settings.frozen) {
-                continue;
-            }
-            match estimator.leakage {
-                Leakage::Constant { rate } if rate > T::zero() => slowest(rate),
-                _ => {
-                    return Err(Error::Inadmissible(
-                        "the leakage of every estimate must be constant",
-                    ))
-                }
-            }
-        }
+        let theta = slowest(settings, (two * lambda).min(two * settings.gain * lambda))?;
         // Twice the residue is sigma·(p* - p0)²/(2·m).
-        let mut phi = two * sum(law, plant, |estimate| Ok(estimate.residue()))?;
+        let mut phi = two * sum(law, plant, Adapting::residue)?;
         let truth = Interval::exactly(plant.delta);
         if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
             phi += two * delta.residue();
@@ -102,9 +80,6 @@ impl<T: Real> Theorem1<T> {
     /// The bound (1 + lambda)·delta as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::Theorem1,
-            value: self.bound,
-        }
+        Certificate::new(Kind::Theorem1, self.bound)
     }
 }

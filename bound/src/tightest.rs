@@ -1,8 +1,8 @@
 //! Theorem 1 with the best choice of the constants that its proof leaves free.
 
-use super::truth::{adapting, bounded, literal, range, stays, sum, Adapting};
+use super::truth::{adapting, bounded, literal, range, slowest, sum, Adapting};
 use super::{Certificate, Interval, Kind, Plant};
-use bowden::control::{Adaptive, Leakage};
+use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
 /// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
@@ -48,7 +48,7 @@ pub struct Tightest<T> {
 }
 
 /// The data of one trial choice.
-struct Problem<'a, T, const N: usize> {
+struct Problem<'a, T: Real, const N: usize> {
     law: &'a Adaptive<T, N>,
     plant: &'a Plant<T, N>,
     /// Adaptation of delta_hat, without its true value, which is the target.
@@ -102,65 +102,32 @@ impl<T: Real> Tightest<T> {
     /// The name of the largest term of phi, and its fraction of phi.
     #[must_use]
     pub fn dominant_term(&self) -> (&'static str, T) {
-        let mut sum = T::zero();
-        let mut greatest = (Self::NAMES[0], T::zero());
-        for (name, term) in Self::NAMES.iter().zip(self.terms) {
-            sum += term;
-            if term > greatest.1 {
-                greatest = (name, term);
-            }
-        }
+        let sum = self.terms.iter().fold(T::zero(), |sum, term| sum + *term);
+        let first = (Self::NAMES[0], T::zero());
+        let terms = Self::NAMES.into_iter().zip(self.terms);
+        let greatest = terms.fold(first, |most, own| if own.1 > most.1 { own } else { most });
         (greatest.0, greatest.1 / sum)
     }
 
     /// The bound as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::Tightest,
-            value: self.bound,
-        }
+        Certificate::new(Kind::Tightest, self.bound)
     }
 }
 
 impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
     fn try_new(law: &'a Adaptive<T, N>, plant: &'a Plant<T, N>) -> Result<Self, Error> {
         let settings = law.settings();
-        let mut slowest = settings.lambda;
-        for estimator in [settings.beta, settings.delta]
-            .iter()
-            .chain(&settings.theta)
-        {
-            if stays(estimator, settings.frozen) {
-                continue;
-            }
-            match estimator.leakage {
-                Leakage::Constant { rate } if rate > T::zero() => {
-                    slowest = if rate < slowest { rate } else { slowest };
-                }
-                _ => {
-                    return Err(Error::Inadmissible(
-                        "the leakage of every estimate must be constant",
-                    ))
-                }
-            }
-        }
         let top = Interval::exactly(plant.delta);
+        let low = range(&settings.delta, settings.frozen).low.max(T::zero());
+        let slowest = slowest(settings, settings.lambda)?;
         let delta = adapting(&settings.delta, settings.frozen, top)?;
-        let low = range(&settings.delta, settings.frozen).low;
-        let low = if low > T::zero() { low } else { T::zero() };
-        let targets = match delta {
-            Some(_) => Interval {
-                low,
-                high: plant.delta,
-            },
-            None => top,
-        };
         Ok(Self {
             law,
             plant,
             delta,
-            targets,
+            targets: delta.map_or(top, |_| Interval { low, ..top }),
             slowest,
         })
     }
@@ -171,11 +138,11 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
         let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
         let half = theta / two;
         let leaked = |estimate: &Adapting<T>| {
-            let sigma = estimate.leakage.rate();
-            let share = sigma * sigma / (four * estimate.gain * (sigma - half));
+            let sigma = estimate.estimator.leakage.rate();
+            let share = sigma * sigma / (four * estimate.estimator.gain * (sigma - half));
             share * estimate.distance_squared()
         };
-        let all = sum(self.law, self.plant, |estimate| Ok(leaked(estimate)))?;
+        let all = sum(self.law, self.plant, leaked)?;
         let thetas = settings.theta.iter().zip(&self.plant.regressors);
         let mut of_theta = T::zero();
         for (theta, known) in thetas {
@@ -197,11 +164,10 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
         }
         let smooth = settings.smooth_sign.residue::<T>() * settings.epsilon * lambda;
         let aimed = |target: T| {
-            let truth = Interval::exactly(target);
-            let delta = self.delta.map(|delta| Adapting { truth, ..delta });
             let left = lambda * (self.plant.delta - target);
             [
-                delta.map_or(T::zero(), |delta| leaked(&delta)),
+                self.delta
+                    .map_or(T::zero(), |delta| leaked(&delta.aimed_at(target))),
                 smooth * target,
                 left * left / (four * stiffness),
             ]

@@ -1,43 +1,78 @@
 //! Ranges of the estimates, and the distance of the true values from their priors.
 
 use super::{Interval, Plant};
-use bowden::control::{Adaptive, Estimator, Leakage};
+use bowden::control::{Adaptive, AdaptiveSettings, Estimator, Form, Leakage};
 use bowden::{Error, Real};
 
-/// One estimate in the Lyapunov function: its gain, its leakage, the true value.
+/// One estimate in the Lyapunov function, and its true value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Adapting<T> {
-    pub(super) gain: T,
-    pub(super) leakage: Leakage<T>,
-    pub(super) initial: T,
-    pub(super) prior: T,
+pub(super) struct Adapting<T: Real> {
+    pub(super) estimator: Estimator<T>,
     pub(super) truth: Interval<T>,
 }
 
 impl<T: Real> Adapting<T> {
+    /// The same estimate with this true value.
+    pub(super) fn aimed_at(self, truth: T) -> Self {
+        let truth = Interval::exactly(truth);
+        Self { truth, ..self }
+    }
+
     /// Largest `(p* - prior)²`.
     pub(super) fn distance_squared(&self) -> T {
-        let distance = self.truth.max_distance_from(self.prior);
+        let distance = self.truth.max_distance_from(self.estimator.prior);
         distance * distance
     }
 
     /// Largest `(sigma/m)·(p_hat - prior)·(p* - p_hat)` over every p_hat.
     pub(super) fn residue(&self) -> T {
-        if let Leakage::Switching { bound, .. } = self.leakage {
+        let Estimator { gain, leakage, .. } = self.estimator;
+        if let Leakage::Switching { bound, .. } = leakage {
             // It leaks only from beyond the true value, and towards the true value.
-            if self.truth.max_distance_from(self.prior) <= bound {
+            if self.truth.max_distance_from(self.estimator.prior) <= bound {
                 return T::zero();
             }
         }
-        self.leakage.rate() * self.distance_squared() / (T::from_f64(4.0) * self.gain)
+        leakage.rate() * self.distance_squared() / (T::from_f64(4.0) * gain)
     }
 
     /// Largest initial `(p* - p_hat)²/(2·m)`.
     pub(super) fn at_start(&self) -> T {
-        let distance = self.truth.max_distance_from(self.initial);
-        distance * distance / (T::from_f64(2.0) * self.gain)
+        let distance = self.truth.max_distance_from(self.estimator.initial);
+        distance * distance / (T::from_f64(2.0) * self.estimator.gain)
     }
+}
+
+/// The estimates beta_hat, delta_hat and theta_hat.
+pub(super) fn estimators<T: Real, const N: usize>(
+    settings: &AdaptiveSettings<T, N>,
+) -> impl Iterator<Item = &Estimator<T>> {
+    let two = [&settings.beta, &settings.delta];
+    two.into_iter().chain(&settings.theta)
+}
+
+/// The error if the leakage of an estimate is not constant.
+pub(super) const VARYING: Error =
+    Error::Inadmissible("the leakage of every estimate must be constant");
+
+/// The least of `rate` and the leakages of the estimates that adapt \[1/s\].
+///
+/// An estimate at the true value is no part of V, and a lower one is refused elsewhere.
+///
+/// # Errors
+/// [`VARYING`] for a leakage that is not constant and positive.
+pub(super) fn slowest<T: Real, const N: usize>(
+    settings: &AdaptiveSettings<T, N>,
+    mut rate: T,
+) -> Result<T, Error> {
+    for estimator in estimators(settings).filter(|own| !stays(own, settings.frozen)) {
+        match estimator.leakage {
+            Leakage::Constant { rate: own } if own > T::zero() => rate = rate.min(own),
+            _ => return Err(VARYING),
+        }
+    }
+    Ok(rate)
 }
 
 /// Whether an estimate is constant at its initial value.
@@ -87,13 +122,8 @@ pub(super) fn adapting<T: Real>(
     if !(estimator.contains(truth.low) && estimator.contains(truth.high)) {
         return Err(Error::Inadmissible("each box must contain the truth"));
     }
-    Ok(Some(Adapting {
-        gain: estimator.gain,
-        leakage: estimator.leakage,
-        initial: estimator.initial,
-        prior: estimator.prior,
-        truth,
-    }))
+    let estimator = *estimator;
+    Ok(Some(Adapting { estimator, truth }))
 }
 
 /// Sum of `of` over beta, weighted by alpha, and the thetas.
@@ -104,23 +134,20 @@ pub(super) fn adapting<T: Real>(
 pub(super) fn sum<T: Real, const N: usize>(
     law: &Adaptive<T, N>,
     plant: &Plant<T, N>,
-    of: impl Fn(&Adapting<T>) -> Result<T, Error>,
+    of: impl Fn(&Adapting<T>) -> T,
 ) -> Result<T, Error> {
     let settings = law.settings();
     let mut worst = T::zero();
     for alpha in [plant.alpha.low, plant.alpha.high] {
         let truth = Interval::exactly(T::one() / alpha);
         if let Some(beta) = adapting(&settings.beta, settings.frozen, truth)? {
-            let taken = alpha * of(&beta)?;
-            if taken > worst {
-                worst = taken;
-            }
+            worst = worst.max(alpha * of(&beta));
         }
     }
     let mut sum = worst;
     for (theta, known) in settings.theta.iter().zip(&plant.regressors) {
         if let Some(theta) = adapting(theta, settings.frozen, known.theta)? {
-            sum += of(&theta)?;
+            sum += of(&theta);
         }
     }
     Ok(sum)
@@ -161,19 +188,21 @@ pub(super) fn mismatch<T: Real, const N: usize>(
         let mut worst = T::zero();
         for g in [g.low, g.high] {
             for estimate in [estimate.low, estimate.high] {
-                let distance = known.theta.max_distance_from(g * estimate);
-                if distance > worst {
-                    worst = distance;
-                }
+                worst = worst.max(known.theta.max_distance_from(g * estimate));
             }
         }
-        // A regressor that is always zero has any coefficient: 0·inf would be NaN.
-        if known.magnitude == T::zero() {
-            sum
-        } else {
-            sum + worst * known.magnitude
-        }
+        sum + scaled(worst, known.magnitude)
     })
+}
+
+/// A factor that may be infinite times a signal. A signal that is always zero has any factor: 0·inf
+/// would be NaN.
+pub(super) fn scaled<T: Real>(factor: T, signal: T) -> T {
+    if signal == T::zero() {
+        T::zero()
+    } else {
+        factor * signal
+    }
 }
 
 /// The value, or an error if it is not finite.
@@ -195,4 +224,14 @@ pub(super) fn literal<T: Real, const N: usize>(law: &Adaptive<T, N>) -> Result<(
         ));
     }
     Ok(())
+}
+
+/// The step \[s\] and the plant gain of the first-order form, which the sampled certificates require.
+pub(super) fn first_order<T: Real, const N: usize>(
+    settings: &AdaptiveSettings<T, N>,
+) -> Result<[T; 2], Error> {
+    match settings.form {
+        Form::FirstOrder { step, plant_gain } => Ok([step, plant_gain]),
+        _ => Err(Error::Inadmissible("the gains must be in first-order form")),
+    }
 }

@@ -4,9 +4,9 @@ use super::estimates::Adapts;
 use super::roundings::Word;
 use crate::checked::{above_zero, finite};
 use crate::dyadic::Enclosure;
-use crate::truth::range;
+use crate::truth::{first_order, range};
 use crate::{Interval, Plant};
-use bowden::control::{AdaptiveSettings, Form};
+use bowden::control::AdaptiveSettings;
 use bowden::{Error, Real};
 
 /// Maximum number of regressors in a law that is examined.
@@ -137,9 +137,7 @@ fn word<T: Real>() -> Word {
 
 /// The step \[s\] of settings whose single numbers make sense.
 fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<T, Error> {
-    let Form::FirstOrder { step, .. } = settings.form else {
-        return Err(Error::Inadmissible("the gains must be in first-order form"));
-    };
+    let [step, _] = first_order(settings)?;
     above_zero(step, "step")?;
     above_zero(settings.gain, "gain")?;
     above_zero(settings.lambda, "lambda")?;

@@ -188,10 +188,7 @@ impl PeakRounded {
     /// The bound as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<f64> {
-        Certificate {
-            kind: Kind::PeakRounded,
-            value: self.bound(),
-        }
+        Certificate::new(Kind::PeakRounded, self.bound())
     }
 
     /// Whether all inequalities hold that a larger S can satisfy.
