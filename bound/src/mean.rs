@@ -1,8 +1,6 @@
 //! The root mean square of s from the change of the Lyapunov function, without the leakage.
 
-use super::truth::{adapting, sum, Adapting};
-use super::{Interval, Plant};
-use bowden::control::Adaptive;
+use super::truth::{Adapting, Case};
 use bowden::{Error, Real};
 
 /// Number of bisections in the search for the target: more than an `f64` can distinguish.
@@ -38,15 +36,13 @@ pub(super) struct Mean<T: Real> {
 impl<T: Real> Mean<T> {
     /// The coefficients in continuous time, if the highest target of delta_hat is `highest`.
     pub(super) fn try_new<const N: usize>(
-        law: &Adaptive<T, N>,
-        plant: &Plant<T, N>,
+        case: &Case<'_, T, N>,
         highest: T,
     ) -> Result<Self, Error> {
-        let settings = law.settings();
-        let highest = Interval::exactly(highest);
+        let settings = case.settings;
         Ok(Self {
-            adapting: adapting(&settings.delta, settings.frozen, highest)?,
-            phi: sum(law, plant, Adapting::residue)?,
+            adapting: case.delta(highest)?,
+            phi: case.sum(Adapting::residue)?,
             residues: T::one(),
             stiffness: settings.gain,
             share: T::one(),
@@ -54,9 +50,9 @@ impl<T: Real> Mean<T> {
             per: settings.lambda,
             weight: T::one(),
             kept: T::one(),
-            at_start: sum(law, plant, Adapting::at_start)?,
-            smoothing: settings.smooth_sign.residue::<T>() * settings.epsilon * settings.lambda,
-            delta: plant.delta,
+            at_start: case.sum(Adapting::at_start)?,
+            smoothing: case.smoothing(),
+            delta: case.plant.delta,
         })
     }
 

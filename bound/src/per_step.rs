@@ -1,6 +1,6 @@
 //! Theorem 1 in sampled time: the change of the Lyapunov function in one step.
 
-use super::truth::{adapting, bounded, estimators, first_order, range, sum, Adapting, VARYING};
+use super::truth::{bounded, estimators, first_order, Adapting, Case, VARYING};
 use super::{Certificate, Interval, Kind, PeakSampled, Plant};
 use bowden::control::{Adaptive, Leakage};
 use bowden::{Error, Real};
@@ -69,12 +69,12 @@ impl<T: Real> PerStep<T> {
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         let within = PeakSampled::try_new(law, plant)?;
-        let settings = law.settings();
+        let (case, settings) = (Case::try_new(law, plant)?, law.settings());
         let [step, _] = first_order(settings)?;
         let (gain, lambda, two) = (settings.gain, settings.lambda, T::from_f64(2.0));
         let mut rate = gain.min(two) * lambda;
         for estimator in estimators(settings) {
-            let range = range(estimator, settings.frozen);
+            let range = case.range(estimator);
             match estimator.leakage {
                 _ if range.low == range.high => {}
                 Leakage::Constant { rate: sigma } => {
@@ -86,17 +86,17 @@ impl<T: Real> PerStep<T> {
         if rate <= T::zero() || step * rate > T::one() {
             return Err(Error::Inadmissible("leakage > 0 and h*rate <= 1"));
         }
-        let target = highest_target(range(&settings.delta, settings.frozen), plant.delta);
+        let target = highest_target(case.range(&settings.delta), plant.delta);
         // (p* - p0)²·sigma/(2·m) is twice the residue.
-        let mut input = two * sum(law, plant, Adapting::residue)?;
-        let delta = adapting(&settings.delta, settings.frozen, Interval::exactly(target))?;
+        let mut input = two * case.sum(Adapting::residue)?;
+        let delta = case.delta(target)?;
         input += delta.map_or(T::zero(), |delta| two * delta.residue());
-        input += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * target;
+        input += case.smoothing() * target;
         if target < plant.delta {
             input += lambda * within.s * (plant.delta - target);
         }
         input += within.xi * within.xi / (two * gain * lambda);
-        input += step * second_order(law, plant, &within, delta) / two;
+        input += step * second_order(&case, &within, delta) / two;
         Ok(Self {
             within,
             step,
@@ -130,14 +130,13 @@ pub(super) fn highest_target<T: Real>(estimates: Interval<T>, delta: T) -> T {
 
 /// R, at worst in the box, with `delta` for delta_hat.
 pub(super) fn second_order<T: Real, const N: usize>(
-    law: &Adaptive<T, N>,
-    plant: &Plant<T, N>,
+    case: &Case<'_, T, N>,
     within: &PeakSampled<T>,
     delta: Option<Adapting<T>>,
 ) -> T {
-    let settings = law.settings();
+    let Case { settings, plant } = case;
     let (lambda, s, g) = (settings.lambda, within.s, within.g.high);
-    let most = range(&settings.delta, settings.frozen).high;
+    let most = case.range(&settings.delta).high;
     let ds =
         lambda * g * (settings.gain * s + most) + g * s / lambda + lambda * within.w + within.xi;
     let dz = T::from_f64(2.0) * s;
@@ -148,7 +147,7 @@ pub(super) fn second_order<T: Real, const N: usize>(
         + plant.reference_rate / lambda
         + most;
     for (theta, known) in settings.theta.iter().zip(&plant.regressors) {
-        let estimate = range(theta, settings.frozen).magnitude();
+        let estimate = case.range(theta).magnitude();
         let v = lambda * s * known.magnitude;
         if known.magnitude > T::zero() {
             virtual_command += estimate * known.magnitude;

@@ -1,7 +1,7 @@
 //! The RMS certificate: a bound on the mean square error from the algebra of Theorem 1.
 
 use super::mean::Mean;
-use super::truth::{bounded, literal, range};
+use super::truth::{bounded, Case};
 use super::{Certificate, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
@@ -58,17 +58,15 @@ impl<T: Real> Rms<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
-        let settings = law.settings();
-        let within = range(&settings.delta, settings.frozen);
+        let case = Case::continuous(law, plant)?;
+        let within = case.range(&law.settings().delta);
         if within.high < T::zero() {
             return Err(Error::Inadmissible("delta.high >= 0"));
         }
         let lowest = within.low.max(T::zero());
         // An estimate that is always above Delta has its least value as target.
         let highest = within.high.min(plant.delta).max(lowest);
-        let mean = Mean::try_new(law, plant, highest)?;
+        let mean = Mean::try_new(&case, highest)?;
         let target = mean.best(lowest, highest);
         Ok(Self {
             bound: mean.bound(target, T::zero()),

@@ -2,7 +2,7 @@
 
 use super::mean::Mean;
 use super::per_step::{highest_target, second_order};
-use super::truth::{bounded, estimators, first_order, range, VARYING};
+use super::truth::{bounded, estimators, first_order, Case, VARYING};
 use super::{Certificate, Kind, PeakSampled, Plant};
 use bowden::control::{Adaptive, Estimator, Leakage};
 use bowden::{Error, Real};
@@ -61,7 +61,7 @@ impl<T: Real> RmsSampled<T> {
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         let within = PeakSampled::try_new(law, plant)?;
-        let settings = law.settings();
+        let (case, settings) = (Case::try_new(law, plant)?, law.settings());
         let [step, _] = first_order(settings)?;
         let (lambda, two) = (settings.lambda, T::from_f64(2.0));
         if step * lambda >= T::one() {
@@ -75,10 +75,10 @@ impl<T: Real> RmsSampled<T> {
             }
             weight = weight.max(T::one() + step * leakage.rate());
         }
-        let deltas = range(&settings.delta, settings.frozen);
+        let deltas = case.range(&settings.delta);
         let highest = highest_target(deltas, plant.delta);
-        let mean = Mean::try_new(law, plant, highest)?;
-        let second = second_order(law, plant, &within, mean.adapting);
+        let mean = Mean::try_new(&case, highest)?;
+        let second = second_order(&case, &within, mean.adapting);
         let mean = Mean {
             phi: two * mean.phi + step * second / two,
             residues: two,

@@ -1,7 +1,6 @@
 //! The box theorem: the peak certificate of the first-order form in sampled time.
 
-use super::peak::push;
-use super::truth::{bounded, first_order, loop_gain};
+use super::truth::{bounded, first_order, Case};
 use super::{Certificate, Interval, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
@@ -80,7 +79,7 @@ impl<T: Real> PeakSampled<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
+        let case = Case::try_new(law, plant)?;
         let settings = law.settings();
         let [_, plant_gain] = first_order(settings)?;
         if plant.alpha.high > plant_gain {
@@ -93,9 +92,9 @@ impl<T: Real> PeakSampled<T> {
         if stiffness <= T::zero() {
             return Err(Error::Inadmissible("k > 1/lambda²"));
         }
-        let g = loop_gain(law, plant)?;
+        let g = case.loop_gain()?;
         let reference = plant.reference + plant.reference_rate / lambda;
-        let w = push(law, plant, g, reference);
+        let w = case.push(g, reference);
         let xi = plant.delta_rate + plant.weighted(|known| known.rate);
         let s = bounded((w + xi / lambda) / (g.low * stiffness))?;
         if settings.z_limit < s / lambda {

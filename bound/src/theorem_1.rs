@@ -1,7 +1,7 @@
 //! Theorem 1 of Nguyen et al. (2018), with the paper's constants.
 
-use super::truth::{adapting, bounded, literal, slowest, sum, Adapting};
-use super::{Certificate, Interval, Kind, Plant};
+use super::truth::{bounded, Adapting, Case};
+use super::{Certificate, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
@@ -55,19 +55,17 @@ impl<T: Real> Theorem1<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
+        let case = Case::continuous(law, plant)?;
         let settings = law.settings();
         let two = T::from_f64(2.0);
         let lambda = settings.lambda;
-        let theta = slowest(settings, (two * lambda).min(two * settings.gain * lambda))?;
+        let theta = case.slowest((two * lambda).min(two * settings.gain * lambda))?;
         // Twice the residue is sigma·(p* - p0)²/(2·m).
-        let mut phi = two * sum(law, plant, Adapting::residue)?;
-        let truth = Interval::exactly(plant.delta);
-        if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
+        let mut phi = two * case.sum(Adapting::residue)?;
+        if let Some(delta) = case.delta(plant.delta)? {
             phi += two * delta.residue();
         }
-        phi += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * plant.delta;
+        phi += case.smoothing() * plant.delta;
         let delta = bounded((two * phi / theta).sqrt())?;
         Ok(Self {
             phi,

@@ -1,6 +1,6 @@
 //! Theorem 1 with the best choice of the constants that its proof leaves free.
 
-use super::truth::{adapting, bounded, literal, range, slowest, sum, Adapting};
+use super::truth::{bounded, Adapting, Case};
 use super::{Certificate, Interval, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
@@ -49,8 +49,7 @@ pub struct Tightest<T> {
 
 /// The data of one trial choice.
 struct Problem<'a, T: Real, const N: usize> {
-    law: &'a Adaptive<T, N>,
-    plant: &'a Plant<T, N>,
+    case: Case<'a, T, N>,
     /// Adaptation of delta_hat, without its true value, which is the target.
     delta: Option<Adapting<T>>,
     targets: Interval<T>,
@@ -79,10 +78,17 @@ impl<T: Real> Tightest<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
-        let problem = Problem::try_new(law, plant)?;
-        let zero = T::zero();
+        let case = Case::continuous(law, plant)?;
+        let (zero, top) = (T::zero(), Interval::exactly(plant.delta));
+        let low = case.range(&law.settings().delta).low.max(zero);
+        let slowest = case.slowest(law.settings().lambda)?;
+        let delta = case.delta(plant.delta)?;
+        let problem = Problem {
+            case,
+            delta,
+            targets: delta.map_or(top, |_| Interval { low, ..top }),
+            slowest,
+        };
         // theta as a share of its maximum, c by its logarithm.
         let theta = |share: T| problem.slowest * T::from_f64(2.0) * share;
         let best_weight = |theta: T| -> Result<Self, Error> {
@@ -116,25 +122,10 @@ impl<T: Real> Tightest<T> {
     }
 }
 
-impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
-    fn try_new(law: &'a Adaptive<T, N>, plant: &'a Plant<T, N>) -> Result<Self, Error> {
-        let settings = law.settings();
-        let top = Interval::exactly(plant.delta);
-        let low = range(&settings.delta, settings.frozen).low.max(T::zero());
-        let slowest = slowest(settings, settings.lambda)?;
-        let delta = adapting(&settings.delta, settings.frozen, top)?;
-        Ok(Self {
-            law,
-            plant,
-            delta,
-            targets: delta.map_or(top, |_| Interval { low, ..top }),
-            slowest,
-        })
-    }
-
+impl<T: Real, const N: usize> Problem<'_, T, N> {
     /// The bound at one theta and one c, with the best target.
     fn at(&self, theta: T, weight: T) -> Result<Tightest<T>, Error> {
-        let settings = self.law.settings();
+        let Case { settings, plant } = self.case;
         let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
         let half = theta / two;
         let leaked = |estimate: &Adapting<T>| {
@@ -142,29 +133,14 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
             let share = sigma * sigma / (four * estimate.estimator.gain * (sigma - half));
             share * estimate.distance_squared()
         };
-        let all = sum(self.law, self.plant, leaked)?;
-        let thetas = settings.theta.iter().zip(&self.plant.regressors);
-        let mut of_theta = T::zero();
-        for (theta, known) in thetas {
-            if let Some(theta) = adapting(theta, settings.frozen, known.theta)? {
-                of_theta += leaked(&theta);
-            }
-        }
+        let all = self.case.sum(leaked)?;
+        let of_theta = self.case.add_thetas(T::zero(), leaked)?;
         let coupling = weight - T::one();
         let coupled = coupling * coupling / (four * weight * (lambda - half));
         let stiffness = settings.gain * lambda - half - coupled;
-        if stiffness <= T::zero() {
-            return Ok(Tightest {
-                bound: T::infinity(),
-                theta,
-                weight,
-                target: self.targets.high,
-                terms: [T::zero(); 5],
-            });
-        }
-        let smooth = settings.smooth_sign.residue::<T>() * settings.epsilon * lambda;
+        let smooth = self.case.smoothing();
         let aimed = |target: T| {
-            let left = lambda * (self.plant.delta - target);
+            let left = lambda * (plant.delta - target);
             [
                 self.delta
                     .map_or(T::zero(), |delta| leaked(&delta.aimed_at(target))),
@@ -177,8 +153,12 @@ impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
         let [of_delta, smoothing, disturbance] = aimed(target);
         let phi = all + of_delta + smoothing + disturbance;
         let seen = T::one() + lambda * lambda / weight;
+        let bound = match stiffness <= T::zero() {
+            true => T::infinity(),
+            false => (seen * two * phi / theta).sqrt(),
+        };
         Ok(Tightest {
-            bound: (seen * two * phi / theta).sqrt(),
+            bound,
             theta,
             weight,
             target,
