@@ -28,7 +28,7 @@ enum Towards {
 /// assert_eq!(Dyadic::of(0.8125_f32).to_string(), "13*2^-4");
 /// assert_eq!(Dyadic::of(0.8125).as_f64(), 0.8125);
 /// ```
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Dyadic {
     mantissa: i128,
@@ -165,14 +165,6 @@ impl fmt::Display for Dyadic {
         write!(f, "{}*2^{}", self.mantissa, self.exponent)
     }
 }
-
-impl PartialEq for Dyadic {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Dyadic {}
 
 impl PartialOrd for Dyadic {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {

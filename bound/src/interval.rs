@@ -117,13 +117,9 @@ impl Span {
 
     /// The squares, which are not negative.
     pub(super) fn square(self) -> Self {
-        let (a, b) = (self.low * self.low, self.high * self.high);
-        let all = Self::outward(a, b);
-        let low = if self.low <= 0.0 && self.high >= 0.0 || all.low < 0.0 {
-            0.0
-        } else {
-            all.low
-        };
+        let all = Self::outward(self.low * self.low, self.high * self.high);
+        let has_zero = self.low <= 0.0 && self.high >= 0.0;
+        let low = if has_zero { 0.0 } else { all.low.max(0.0) };
         Self { low, ..all }
     }
 

@@ -179,12 +179,16 @@ impl IterativeLearningConvergence {
             plants: *plants,
         };
         let half = Span::exactly(core::f64::consts::PI) * Span::exactly(cell.low).recip();
-        let mut halving = Halving::at_most(MOST_BOXES, MOST_HALVINGS);
+        let (to_nyquist, below) = (at(lowest, half.high), at(0.0, own(cycle.low).high));
+        let mut halving = Halving::at_most(MOST_BOXES);
         let halves = |of: &Boxed| proof.halves(of);
-        let to_nyquist = at(lowest, half.high);
-        let below = at(0.0, own(cycle.low).high);
-        let shrinks = halving.all(&to_nyquist, &|of| proof.is_small(of), &halves)
-            && (k_i == 0.0 || halving.all(&below, &|of| proof.is_below_one(of), &halves));
+        let shrinks = halving.all(
+            &to_nyquist,
+            MOST_HALVINGS,
+            &|of| proof.is_small(of),
+            &halves,
+        ) && (k_i == 0.0
+            || halving.all(&below, MOST_HALVINGS, &|of| proof.is_below_one(of), &halves));
         if !shrinks {
             return Err(Error::Inadmissible(
                 "every tone must shrink by the factor on every plant of the range",

@@ -1,7 +1,7 @@
 //! Robust stability of a PI controller with a disturbance observer, over a range of plants.
 
 use super::interval::{Plane, Span};
-use super::zeros::{doubled, excluded, Closed};
+use super::zeros::{doubled, excluded};
 use super::PlantRange;
 use bowden::control::{DerivativeSource, DisturbanceObserver, Pid, PidSettings};
 use bowden::{Error, Real};
@@ -87,10 +87,8 @@ struct Loop {
     k_i: f64,
     /// tau of Q.
     filter: f64,
-    gain: f64,
-    /// `1/wn²` and `2·zeta/wn` of the nominal plant.
-    curvature: Span,
-    rate: Span,
+    /// The nominal plant, without latency, joint and hysteresis.
+    nominal: PlantRange,
 }
 
 impl ObserverStability {
@@ -110,38 +108,36 @@ impl ObserverStability {
         plants.check()?;
         let (k_p, k_i) = proportional_and_integral(law.settings())?;
         let nominal = observer.plant();
-        let first = PlantRange {
-            gain: Span::exactly(nominal.gain().as_f64()),
-            natural_frequency: Span::exactly(nominal.natural_frequency().as_f64()),
-            damping_ratio: Span::exactly(nominal.damping_ratio().as_f64()),
-            joint: Span::exactly(0.0),
-            slope: Span::exactly(1.0),
-            latency: Span::exactly(0.0),
-        };
-        let (curvature, rate) = first.denominator();
         let closed = Loop {
             k_p,
             k_i,
             filter: observer.time_constant().as_f64(),
-            gain: nominal.gain().as_f64(),
-            curvature,
-            rate,
+            nominal: PlantRange {
+                gain: Span::exactly(nominal.gain().as_f64()),
+                natural_frequency: Span::exactly(nominal.natural_frequency().as_f64()),
+                damping_ratio: Span::exactly(nominal.damping_ratio().as_f64()),
+                ..plants.plain()
+            },
         };
-        if (closed.gain > 0.0) != (plants.gain.low > 0.0) {
+        let nominal = closed.nominal;
+        if (nominal.gain.low > 0.0) != (plants.gain.low > 0.0) {
             return Err(Error::Inadmissible(
                 "gain and nominal gain must have the same sign",
             ));
         }
-        if !first.is_stable_with(k_p, k_i) {
+        if !nominal.is_stable_with(k_p, k_i) {
             return Err(Error::Inadmissible(
                 "the nominal loop without latency must be stable",
             ));
         }
         let shown =
             Error::Inadmissible("no plant of the range may come near the edge of stability");
-        let highest = closed.highest(&first.hull(*plants)).ok_or(shown)?;
+        let highest = closed.highest(&nominal.hull(*plants)).ok_or(shown)?;
         let latency = observer.latency().as_f64();
-        let boxes = excluded(&closed, first, *plants, latency, highest).ok_or(shown)?;
+        let values = |w, plants: &PlantRange, observed| closed.values(w, plants, observed);
+        // At frequencies far below 1/tau, F hardly changes.
+        let scale = 0.1 / closed.filter;
+        let boxes = excluded(values, scale, [nominal, *plants], latency, highest).ok_or(shown)?;
         Ok(Self {
             plants: *plants,
             highest,
@@ -171,36 +167,26 @@ impl Loop {
             let (plant, answer) = hull.shares(x);
             let less_one = filter.square() - two * x * (filter + x);
             let law = Span::exactly(self.k_p.abs()) + Span::exactly(self.k_i.abs()) * x;
-            let inverse = self.curvature + x * (self.rate + x);
-            let gain = Span::exactly(self.gain.abs());
+            let (curvature, rate) = self.nominal.denominator();
+            let inverse = curvature + x * (rate + x);
+            let gain = Span::exactly(self.nominal.gain.magnitude());
             let both = law * (filter + x).square() + inverse * gain.recip();
             let first = plant * less_one;
             plant.low > 0.0 && less_one.low > 0.0 && first.low > (answer * both).high
         })
     }
-}
-
-impl Closed for Loop {
-    /// At frequencies far below 1/tau, F hardly changes.
-    fn scale(&self) -> f64 {
-        0.1 / self.filter
-    }
 
     /// A region that contains all values of F at these frequencies, or of F/s for a P controller.
     fn values(&self, w: Span, plants: &PlantRange, observed: Span) -> Plane {
         let (one, filter) = (Span::exactly(1.0), Span::exactly(self.filter));
-        let (plant, delayed) = plants.at(w);
+        let (plant, delayed) = (plants.drive(w), plants.cable(w));
         let square = filter.square() * w.square();
         let filter = Plane::new(one - square, Span::exactly(2.0) * filter * w);
         // 1 − 1/(1 + jx) = (x² + jx)/(1 + x²).
         let x = observed * w;
         let below = (one + x.square()).recip();
         let less_one = Plane::new(x.square() * below - square, filter.im + x * below);
-        let own = Span::exactly(self.gain).recip();
-        let inverse = Plane::new(
-            (one - self.curvature * w.square()) * own,
-            self.rate * w * own,
-        );
+        let inverse = self.nominal.drive(w).times(self.nominal.gain.recip());
         let first = plant * less_one;
         let k_p = Span::exactly(self.k_p);
         if self.k_i == 0.0 {

@@ -63,18 +63,15 @@ impl<T: Real> PeakContinuous<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        let case = Case::continuous(law, plant)?;
+        let case = Case::try_new(law, plant)?.as_published()?;
         let settings = law.settings();
         let g = case.loop_gain()?;
         let squared = settings.lambda * settings.lambda;
         // g·kappa is linear in g on either side of the kink, so least at one of three.
         let kink = squared / (T::one() + squared);
-        let mut stiffness = g_kappa(settings.gain, squared, g.low);
-        for at in [kink, g.high] {
-            if g.low <= at && at <= g.high {
-                stiffness = stiffness.min(g_kappa(settings.gain, squared, at));
-            }
-        }
+        let ends = [g.low, kink.max(g.low).min(g.high), g.high];
+        let each = ends.map(|g| g_kappa(settings.gain, squared, g));
+        let stiffness = each.into_iter().fold(T::infinity(), T::min);
         if stiffness <= T::zero() {
             return Err(Error::Inadmissible("k > 1/lambda² - 2*(1/g - 1)"));
         }

@@ -110,11 +110,8 @@ impl<T: Real> PerStep<T> {
     /// The resulting bound on limsup `|e|`: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        let v = self.input / self.rate;
-        Certificate::new(
-            Kind::PerStep,
-            (T::one() + self.lambda) * (T::from_f64(2.0) * v).sqrt(),
-        )
+        let size = (T::from_f64(2.0) * (self.input / self.rate)).sqrt();
+        Certificate::new(Kind::PerStep, (T::one() + self.lambda) * size)
     }
 }
 

@@ -74,6 +74,17 @@ impl PlantRange {
         self
     }
 
+    /// The plants without latency, joint and hysteresis.
+    pub(super) fn plain(self) -> Self {
+        let zero = Span::exactly(0.0);
+        Self {
+            joint: zero,
+            slope: Span::exactly(1.0),
+            latency: zero,
+            ..self
+        }
+    }
+
     /// The plant in the middle of the range.
     pub(super) fn middle(self) -> Self {
         self.with(self, |own, _| Span::exactly(own.middle()))
@@ -99,15 +110,16 @@ impl PlantRange {
         (self.slope * slow.square(), self.slope * rate + self.joint)
     }
 
-    /// D~ and `f·alpha~·(1 + c/K·s)·e^(−theta·s)` at the frequencies w.
-    pub(super) fn at(&self, w: Span) -> (Plane, Plane) {
-        let one = Span::exactly(1.0);
+    /// D~ at the frequencies w.
+    pub(super) fn drive(&self, w: Span) -> Plane {
         let (curvature, rate) = self.denominator();
-        let joint = Plane::new(one, self.joint * w) * Plane::late(self.latency * w);
-        (
-            Plane::new(one - curvature * w.square(), rate * w),
-            joint.times(self.gain * self.slope),
-        )
+        Plane::new(Span::exactly(1.0) - curvature * w.square(), rate * w)
+    }
+
+    /// `f·alpha~·(1 + c/K·s)·e^(−theta·s)` at the frequencies w.
+    pub(super) fn cable(&self, w: Span) -> Plane {
+        let joint = Plane::new(Span::exactly(1.0), self.joint * w);
+        (joint * Plane::late(self.latency * w)).times(self.gain * self.slope)
     }
 
     /// Lower bound on `|D~|/|s|²` and upper bound on `f·alpha~·|1 + c/K·s|/|s|²`, for all

@@ -1,7 +1,7 @@
 //! Theorem 1 with the best choice of the constants that its proof leaves free.
 
 use super::truth::{bounded, Adapting, Case};
-use super::{Certificate, Interval, Kind, Plant};
+use super::{Certificate, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
@@ -47,16 +47,6 @@ pub struct Tightest<T> {
     pub terms: [T; 5],
 }
 
-/// The data of one trial choice.
-struct Problem<'a, T: Real, const N: usize> {
-    case: Case<'a, T, N>,
-    /// Adaptation of delta_hat, without its true value, which is the target.
-    delta: Option<Adapting<T>>,
-    targets: Interval<T>,
-    /// Smallest leakage of an estimate in V \[1/s\].
-    slowest: T,
-}
-
 /// Number of rounds in each search. Each round reduces the interval to two thirds.
 const NARROWINGS: u32 = 36;
 
@@ -78,24 +68,15 @@ impl<T: Real> Tightest<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        let case = Case::continuous(law, plant)?;
-        let (zero, top) = (T::zero(), Interval::exactly(plant.delta));
-        let low = case.range(&law.settings().delta).low.max(zero);
+        let case = Case::try_new(law, plant)?.as_published()?;
         let slowest = case.slowest(law.settings().lambda)?;
-        let delta = case.delta(plant.delta)?;
-        let problem = Problem {
-            case,
-            delta,
-            targets: delta.map_or(top, |_| Interval { low, ..top }),
-            slowest,
-        };
         // theta as a share of its maximum, c by its logarithm.
-        let theta = |share: T| problem.slowest * T::from_f64(2.0) * share;
+        let theta = |share: T| slowest * T::from_f64(2.0) * share;
         let best_weight = |theta: T| -> Result<Self, Error> {
             let highest = T::from_f64(16.0) * law.settings().gain * law.settings().lambda;
             let top = (highest * law.settings().lambda + T::from_f64(2.0)).ln();
-            let at = |log: T| problem.at(theta, log.exp());
-            at(narrowed(zero, top, |log| Ok(at(log)?.bound))?)
+            let of = |log: T| at(&case, theta, log.exp());
+            of(narrowed(T::zero(), top, |log| Ok(of(log)?.bound))?)
         };
         let share = narrowed(T::from_f64(1e-6), T::one() - T::from_f64(1e-6), |share| {
             Ok(best_weight(theta(share))?.bound)
@@ -122,49 +103,54 @@ impl<T: Real> Tightest<T> {
     }
 }
 
-impl<T: Real, const N: usize> Problem<'_, T, N> {
-    /// The bound at one theta and one c, with the best target.
-    fn at(&self, theta: T, weight: T) -> Result<Tightest<T>, Error> {
-        let Case { settings, plant } = self.case;
-        let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
-        let half = theta / two;
-        let leaked = |estimate: &Adapting<T>| {
-            let sigma = estimate.estimator.leakage.rate();
-            let share = sigma * sigma / (four * estimate.estimator.gain * (sigma - half));
-            share * estimate.distance_squared()
-        };
-        let all = self.case.sum(leaked)?;
-        let of_theta = self.case.add_thetas(T::zero(), leaked)?;
-        let coupling = weight - T::one();
-        let coupled = coupling * coupling / (four * weight * (lambda - half));
-        let stiffness = settings.gain * lambda - half - coupled;
-        let smooth = self.case.smoothing();
-        let aimed = |target: T| {
-            let left = lambda * (plant.delta - target);
-            [
-                self.delta
-                    .map_or(T::zero(), |delta| leaked(&delta.aimed_at(target))),
-                smooth * target,
-                left * left / (four * stiffness),
-            ]
-        };
-        let total = |target: T| Ok(aimed(target).iter().fold(T::zero(), |sum, x| sum + *x));
-        let target = narrowed(self.targets.low, self.targets.high, total)?;
-        let [of_delta, smoothing, disturbance] = aimed(target);
-        let phi = all + of_delta + smoothing + disturbance;
-        let seen = T::one() + lambda * lambda / weight;
-        let bound = match stiffness <= T::zero() {
-            true => T::infinity(),
-            false => (seen * two * phi / theta).sqrt(),
-        };
-        Ok(Tightest {
-            bound,
-            theta,
-            weight,
-            target,
-            terms: [all - of_theta, of_delta, of_theta, smoothing, disturbance],
-        })
-    }
+/// The bound at one theta and one c, with the best target.
+fn at<T: Real, const N: usize>(
+    case: &Case<'_, T, N>,
+    theta: T,
+    weight: T,
+) -> Result<Tightest<T>, Error> {
+    let Case { settings, plant } = case;
+    let delta = case.delta(plant.delta)?;
+    let lowest = delta.map_or(plant.delta, |_| {
+        case.range(&settings.delta).low.max(T::zero())
+    });
+    let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
+    let half = theta / two;
+    let leaked = |estimate: &Adapting<T>| {
+        let sigma = estimate.estimator.leakage.rate();
+        let share = sigma * sigma / (four * estimate.estimator.gain * (sigma - half));
+        share * estimate.distance_squared()
+    };
+    let all = case.sum(leaked)?;
+    let of_theta = case.add_thetas(T::zero(), leaked)?;
+    let coupling = weight - T::one();
+    let coupled = coupling * coupling / (four * weight * (lambda - half));
+    let stiffness = settings.gain * lambda - half - coupled;
+    let smooth = case.smoothing();
+    let aimed = |target: T| {
+        let left = lambda * (plant.delta - target);
+        [
+            delta.map_or(T::zero(), |delta| leaked(&delta.aimed_at(target))),
+            smooth * target,
+            left * left / (four * stiffness),
+        ]
+    };
+    let total = |target: T| Ok(aimed(target).iter().fold(T::zero(), |sum, x| sum + *x));
+    let target = narrowed(lowest, plant.delta, total)?;
+    let [of_delta, smoothing, disturbance] = aimed(target);
+    let phi = all + of_delta + smoothing + disturbance;
+    let seen = T::one() + lambda * lambda / weight;
+    let bound = match stiffness <= T::zero() {
+        true => T::infinity(),
+        false => (seen * two * phi / theta).sqrt(),
+    };
+    Ok(Tightest {
+        bound,
+        theta,
+        weight,
+        target,
+        terms: [all - of_theta, of_delta, of_theta, smoothing, disturbance],
+    })
 }
 
 /// The argument at which a function that falls and then rises is smallest. Any argument gives a

@@ -88,13 +88,9 @@ impl<'a, T: Real, const N: usize> Case<'a, T, N> {
     }
 
     /// A law of the form as published, which the continuous certificates require.
-    pub(super) fn continuous(
-        law: &'a Adaptive<T, N>,
-        plant: &'a Plant<T, N>,
-    ) -> Result<Self, Error> {
-        let case = Self::try_new(law, plant)?;
-        match case.settings.form {
-            Form::AsPublished { .. } => Ok(case),
+    pub(super) fn as_published(self) -> Result<Self, Error> {
+        match self.settings.form {
+            Form::AsPublished { .. } => Ok(self),
             Form::FirstOrder { .. } => Err(Error::Inadmissible(
                 "the gains must have the form as published",
             )),

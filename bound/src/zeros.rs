@@ -10,25 +10,17 @@ const MOST_BOXES: u32 = 400_000;
 /// Maximum number of bisections of a region.
 const MOST_HALVINGS: u32 = 60;
 
-/// A closed loop whose function must not have a zero on the imaginary axis.
-pub(super) trait Closed {
-    /// A region that contains all values of its function at these frequencies, with an observer of
-    /// this latency.
-    fn values(&self, frequency: Span, plants: &PlantRange, observed: Span) -> Plane;
-
-    /// A frequency far below which the function hardly changes \[rad/s\].
-    fn scale(&self) -> f64;
-}
-
-/// Number of regions in the proof that no zero lies on the imaginary axis below a frequency
-/// \[rad/s\]. The proof covers the straight path from a nominal plant to the middle of a range,
-/// and every plant of the range. `None` if no proof was found.
+/// Number of regions in the proof that a function has no zero on the imaginary axis below the
+/// frequency `highest` \[rad/s\]. The proof covers the straight path from a nominal plant to the
+/// middle of a range, and every plant of the range. `None` if no proof was found.
 ///
-/// Along the path, the latency of the observer grows from zero to `observed` \[s\].
-pub(super) fn excluded<C: Closed>(
-    closed: &C,
-    nominal: PlantRange,
-    all: PlantRange,
+/// `values` is a region that contains all values of the function at some frequencies \[rad/s\], for
+/// some plants and observers with some latency \[s\]. The function hardly changes far below the
+/// frequency `scale`. Along the path, the latency of the observer grows from zero to `observed`.
+pub(super) fn excluded(
+    values: impl Fn(Span, &PlantRange, Span) -> Plane,
+    scale: f64,
+    [nominal, all]: [PlantRange; 2],
     observed: f64,
     highest: f64,
 ) -> Option<u32> {
@@ -41,12 +33,13 @@ pub(super) fn excluded<C: Closed>(
             ),
             Set::All(plants) => (*plants, observed),
         };
-        closed.values(*frequency, &plants, observed).is_off_zero()
+        values(*frequency, &plants, observed).is_off_zero()
     };
-    let halves = |of: &(Span, Set)| halves(of, closed.scale());
+    let halves = |of: &(Span, Set)| halves(of, scale);
     let from_zero = |high: f64| Span { high, ..zero };
-    let mut halving = Halving::at_most(MOST_BOXES, MOST_HALVINGS);
-    let mut shown = |set: Set| halving.all(&(from_zero(highest), set), &shows, &halves);
+    let mut halving = Halving::at_most(MOST_BOXES);
+    let mut shown =
+        |set: Set| halving.all(&(from_zero(highest), set), MOST_HALVINGS, &shows, &halves);
     (shown(Set::Way(from_zero(1.0))) && shown(Set::All(all))).then_some(halving.boxes)
 }
 

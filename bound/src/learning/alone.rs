@@ -2,7 +2,7 @@
 //! above the Nyquist frequency of the cells.
 
 use crate::interval::{Plane, Span};
-use crate::zeros::{doubled, excluded, Closed};
+use crate::zeros::{doubled, excluded};
 use crate::PlantRange;
 
 /// A P or PI controller with a plant, without learning control.
@@ -18,18 +18,14 @@ impl Loop {
     /// has no zero in the right half-plane, for any plant. For a P controller, the first term has
     /// no factor s.
     pub(super) fn is_stable(&self, all: &PlantRange) -> Option<u32> {
-        // The plant in the middle, without latency, joint and hysteresis.
-        let first = PlantRange {
-            joint: Span::exactly(0.0),
-            slope: Span::exactly(1.0),
-            latency: Span::exactly(0.0),
-            ..all.middle()
-        };
+        let first = all.middle().plain();
         if !first.is_stable_with(self.k_p, self.k_i) {
             return None;
         }
         let highest = self.highest(&first.hull(*all))?;
-        excluded(self, first, *all, 0.0, highest)
+        let values = |w, plants: &PlantRange, _| self.values(w, plants);
+        let scale = 0.1 * self.natural_frequency;
+        excluded(values, scale, [first, *all], 0.0, highest)
     }
 
     /// A frequency above which the first term is the larger term everywhere in the right
@@ -60,15 +56,10 @@ impl Loop {
         let around = Span::exactly(1.0) - open * self.law(x);
         (around.low > 0.0).then(|| (open * Span::exactly(around.low).recip()).high)
     }
-}
 
-impl Closed for Loop {
-    fn scale(&self) -> f64 {
-        0.1 * self.natural_frequency
-    }
-
-    fn values(&self, w: Span, plants: &PlantRange, _: Span) -> Plane {
-        let (plant, delayed) = plants.at(w);
+    /// A region that contains all values of the sum at these frequencies.
+    fn values(&self, w: Span, plants: &PlantRange) -> Plane {
+        let (plant, delayed) = (plants.drive(w), plants.cable(w));
         let k_p = Span::exactly(self.k_p);
         if self.k_i == 0.0 {
             return plant + delayed.times(k_p);

@@ -1,6 +1,5 @@
 //! The box theorem for the shipped step, with all rounding errors.
 
-mod estimates;
 mod gains;
 mod inequalities;
 mod roundings;
@@ -93,7 +92,7 @@ pub struct PeakRounded {
 }
 
 /// Number of doublings and halvings in the search for S.
-const DOUBLINGS: u32 = 20;
+const DOUBLINGS: i32 = 20;
 const HALVINGS: u32 = 80;
 
 impl PeakRounded {
@@ -127,15 +126,10 @@ impl PeakRounded {
         plant: &Plant<f64, N>,
     ) -> Result<Self, Error> {
         let gains = Gains::try_new(settings, plant)?;
-        let mut high = Enclosure::ONE;
-        let mut doublings = 0;
-        while !Self::at(&gains, high).grows_into() {
-            high = high + high;
-            doublings += 1;
-            if doublings > DOUBLINGS {
-                return Ok(Self::at(&gains, gains.exact_box()));
-            }
-        }
+        let mut doubled = (0..=DOUBLINGS).map(Enclosure::power);
+        let Some(mut high) = doubled.find(|s| Self::at(&gains, *s).grows_into()) else {
+            return Ok(Self::at(&gains, gains.exact_box()));
+        };
         let mut low = Enclosure::ZERO;
         for _ in 0..HALVINGS {
             if (high - low).is_at_most(high * Enclosure::power(-14)) {
