@@ -16,7 +16,7 @@ mod cycle;
 const MOST_BOXES: u32 = 500_000;
 
 /// Maximum number of bisections of a region.
-const MOST_HALVINGS: u32 = 80;
+const DEEPEST: u32 = 80;
 
 /// Convergence of iterative learning control with a P or PI controller, for every plant of a range.
 ///
@@ -182,13 +182,8 @@ impl IterativeLearningConvergence {
         let (to_nyquist, below) = (at(lowest, half.high), at(0.0, own(cycle.low).high));
         let mut halving = Halving::at_most(MOST_BOXES);
         let halves = |of: &Boxed| proof.halves(of);
-        let shrinks = halving.all(
-            &to_nyquist,
-            MOST_HALVINGS,
-            &|of| proof.is_small(of),
-            &halves,
-        ) && (k_i == 0.0
-            || halving.all(&below, MOST_HALVINGS, &|of| proof.is_below_one(of), &halves));
+        let shrinks = halving.all(&to_nyquist, DEEPEST, &|of| proof.is_small(of), &halves)
+            && (k_i == 0.0 || halving.all(&below, DEEPEST, &|of| proof.is_below_one(of), &halves));
         if !shrinks {
             return Err(Error::Inadmissible(
                 "every tone must shrink by the factor on every plant of the range",

@@ -63,7 +63,7 @@ impl<T: Real> PeakContinuous<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        let case = Case::try_new(law, plant)?.as_published()?;
+        let case = Case::try_new(law, plant)?.published()?;
         let settings = law.settings();
         let g = case.loop_gain()?;
         let squared = settings.lambda * settings.lambda;

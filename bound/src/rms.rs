@@ -58,7 +58,7 @@ impl<T: Real> Rms<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        let case = Case::try_new(law, plant)?.as_published()?;
+        let case = Case::try_new(law, plant)?.published()?;
         let within = case.range(&law.settings().delta);
         if within.high < T::zero() {
             return Err(Error::Inadmissible("delta.high >= 0"));

@@ -55,7 +55,7 @@ impl<T: Real> Theorem1<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        let case = Case::try_new(law, plant)?.as_published()?;
+        let case = Case::try_new(law, plant)?.published()?;
         let settings = law.settings();
         let two = T::from_f64(2.0);
         let lambda = settings.lambda;

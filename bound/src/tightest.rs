@@ -68,7 +68,7 @@ impl<T: Real> Tightest<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        let case = Case::try_new(law, plant)?.as_published()?;
+        let case = Case::try_new(law, plant)?.published()?;
         let slowest = case.slowest(law.settings().lambda)?;
         // theta as a share of its maximum, c by its logarithm.
         let theta = |share: T| slowest * T::from_f64(2.0) * share;

@@ -88,7 +88,7 @@ impl<'a, T: Real, const N: usize> Case<'a, T, N> {
     }
 
     /// A law of the form as published, which the continuous certificates require.
-    pub(super) fn as_published(self) -> Result<Self, Error> {
+    pub(super) fn published(self) -> Result<Self, Error> {
         match self.settings.form {
             Form::AsPublished { .. } => Ok(self),
             Form::FirstOrder { .. } => Err(Error::Inadmissible(

@@ -8,7 +8,7 @@ use super::PlantRange;
 const MOST_BOXES: u32 = 400_000;
 
 /// Maximum number of bisections of a region.
-const MOST_HALVINGS: u32 = 60;
+const DEEPEST: u32 = 60;
 
 /// Number of regions in the proof that a function has no zero on the imaginary axis below the
 /// frequency `highest` \[rad/s\]. The proof covers the straight path from a nominal plant to the
@@ -38,8 +38,7 @@ pub(super) fn excluded(
     let halves = |of: &(Span, Set)| halves(of, scale);
     let from_zero = |high: f64| Span { high, ..zero };
     let mut halving = Halving::at_most(MOST_BOXES);
-    let mut shown =
-        |set: Set| halving.all(&(from_zero(highest), set), MOST_HALVINGS, &shows, &halves);
+    let mut shown = |set: Set| halving.all(&(from_zero(highest), set), DEEPEST, &shows, &halves);
     (shown(Set::Way(from_zero(1.0))) && shown(Set::All(all))).then_some(halving.boxes)
 }
 

@@ -58,19 +58,13 @@ impl Cycle<'_> {
             let a = Span::exactly(*a);
             let along = |p: Span| square * p.square() - Span::exactly(2.0) * kept * a * p;
             let ends = [around.re.low, around.re.high].map(|p| along(Span::exactly(p)).high);
+            let ends = ends[0].max(ends[1]);
             // Where it falls on both sides, the highest value lies between.
             let top = (kept * a).square() * (Span::exactly(-1.0) * square).recip();
-            let between = if square.low < 0.0 {
-                top.high
-            } else {
-                f64::NEG_INFINITY
-            };
             let peak = kept * a * square.recip();
             let outside = around.re.high < peak.low || around.re.low > peak.high;
-            let most = match outside {
-                true => ends[0].max(ends[1]),
-                false => ends[0].max(ends[1]).max(between),
-            };
+            let between = square.low < 0.0 && !outside;
+            let most = if between { ends.max(top.high) } else { ends };
             (Span::exactly(most) + of_size + a.square()).high <= 0.0
         })
     }

@@ -133,10 +133,8 @@ impl Gains {
         let alpha = [plant.alpha.low, plant.alpha.high].map(Enclosure::of);
         let g = [alpha[0] * beta[0], alpha[1] * beta[1]];
         let terms = terms(settings, plant, g)?;
-        let (lambda, reference) = (
-            Enclosure::of(settings.lambda),
-            Enclosure::of(plant.reference),
-        );
+        let lambda = Enclosure::of(settings.lambda);
+        let reference = Enclosure::of(plant.reference);
         let reference_rate = Enclosure::of(plant.reference_rate);
         let off = (Enclosure::ONE - g[0]).abs();
         let off = off.max((g[1] - Enclosure::ONE).abs());

@@ -175,7 +175,7 @@ impl PeakRounded {
     /// The bound S + lambda·Z \[N·m\] on `|e|` at every sample, never rounded down.
     #[must_use]
     pub fn bound(&self) -> f64 {
-        let nearest = self.error.high().as_f64();
+        let nearest = self.error.high.as_f64();
         nearest + libm::fabs(nearest) * f64::EPSILON
     }
 
