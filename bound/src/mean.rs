@@ -8,7 +8,8 @@ const NARROWINGS: u32 = 90;
 
 /// The coefficients of
 /// `stiffness·rms(s)² <= (share·c + xi)·rms(s) + (phi + weight·V(0)/T)/per`,
-/// where `c = Delta - target`, and of `rms(e) <= rms(s)/kept`.
+/// where `c = Delta - target`, and of `rms(e) <= rms(s)/kept`. In continuous time, the stiffness is k
+/// and `per` is lambda; the share, the weight and `kept` are one, and xi is zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Mean<T: Real> {

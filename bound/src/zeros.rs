@@ -25,10 +25,11 @@ pub(super) fn excluded(
     highest: f64,
 ) -> Option<u32> {
     let (zero, observed) = (Span::exactly(0.0), Span::exactly(observed));
+    let middle = all.middle();
     let shows = |(frequency, set): &(Span, Set)| {
         let (plants, observed) = match set {
             Set::Way(part) => (
-                nominal.between(all.middle(), *part),
+                nominal.between(middle, *part),
                 zero.towards(observed, *part),
             ),
             Set::All(plants) => (*plants, observed),
