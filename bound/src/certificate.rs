@@ -50,6 +50,10 @@ pub struct Certificate<T> {
 }
 
 impl<T> Certificate<T> {
+    pub(super) const fn new(kind: Kind, value: T) -> Self {
+        Self { kind, value }
+    }
+
     /// The bounded quantity, for example "limsup |e|".
     #[must_use]
     pub fn bounds(&self) -> &'static str {

@@ -19,3 +19,11 @@ pub(crate) fn above_zero<T: Real>(value: T, name: &'static str) -> Result<T, Err
         Err(Error::OutOfRange(name))
     }
 }
+
+/// A finite number that is not negative.
+pub(crate) fn not_negative<T: Real>(value: T, name: &'static str) -> Result<T, Error> {
+    if finite(value, name)? < T::ZERO {
+        return Err(Error::OutOfRange(name));
+    }
+    Ok(value)
+}

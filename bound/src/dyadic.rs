@@ -1,5 +1,6 @@
 //! Numbers for proofs: integers times a power of two, and intervals of them.
 
+use super::Interval;
 use bowden::Real;
 use core::cmp::Ordering;
 use core::fmt;
@@ -28,7 +29,7 @@ enum Towards {
 /// assert_eq!(Dyadic::of(0.8125_f32).to_string(), "13*2^-4");
 /// assert_eq!(Dyadic::of(0.8125).as_f64(), 0.8125);
 /// ```
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Dyadic {
     mantissa: i128,
@@ -37,10 +38,7 @@ pub struct Dyadic {
 
 impl Dyadic {
     /// A number larger than every number in a proof.
-    const HUGE: Self = Self {
-        mantissa: 1,
-        exponent: 1 << 20,
-    };
+    const HUGE: Self = Self::power(1 << 20);
 
     const ZERO: Self = Self {
         mantissa: 0,
@@ -91,7 +89,7 @@ impl Dyadic {
         Self::cut(self.mantissa, self.exponent, bits, Towards::Above)
     }
 
-    fn negated(self) -> Self {
+    const fn negated(self) -> Self {
         Self {
             mantissa: -self.mantissa,
             ..self
@@ -166,14 +164,6 @@ impl fmt::Display for Dyadic {
     }
 }
 
-impl PartialEq for Dyadic {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Dyadic {}
-
 impl PartialOrd for Dyadic {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
@@ -202,7 +192,8 @@ impl Ord for Dyadic {
     }
 }
 
-/// An interval, rounded outwards so that it contains the exact result of each operation.
+/// An interval of exact numbers, rounded outwards so that it contains the exact result of each
+/// operation.
 ///
 /// A quotient by an interval that contains zero is the interval of all numbers. A comparison
 /// ([`is_at_most`](Self::is_at_most)) is true only if it holds for all numbers in both intervals.
@@ -210,24 +201,16 @@ impl Ord for Dyadic {
 /// ```
 /// use bowden_bound::Enclosure;
 /// let third = Enclosure::of(1.0) / Enclosure::of(3.0);
-/// assert!(third.low() < third.high());
+/// assert!(third.low < third.high);
 /// assert!(third.is_at_most(Enclosure::of(0.333_333_333_333_333_4)));
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Enclosure {
-    low: Dyadic,
-    high: Dyadic,
-}
+pub type Enclosure = Interval<Dyadic>;
 
 impl Enclosure {
     pub(super) const ZERO: Self = Self::exactly(Dyadic::ZERO);
     pub(super) const ONE: Self = Self::exactly(Dyadic::power(0));
     const EVERYTHING: Self = Self {
-        low: Dyadic {
-            mantissa: -1,
-            ..Dyadic::HUGE
-        },
+        low: Dyadic::HUGE.negated(),
         high: Dyadic::HUGE,
     };
 
@@ -237,27 +220,9 @@ impl Enclosure {
         Self::exactly(Dyadic::of(x))
     }
 
-    /// The interval of one number.
-    #[must_use]
-    pub const fn exactly(x: Dyadic) -> Self {
-        Self { low: x, high: x }
-    }
-
     /// `2^exponent`.
     pub(super) const fn power(exponent: i32) -> Self {
         Self::exactly(Dyadic::power(exponent))
-    }
-
-    /// Lower end, which is not above the exact value.
-    #[must_use]
-    pub const fn low(&self) -> Dyadic {
-        self.low
-    }
-
-    /// Upper end, which is not below the exact value.
-    #[must_use]
-    pub const fn high(&self) -> Dyadic {
-        self.high
     }
 
     /// Whether this number is certainly not greater than the other.
@@ -269,20 +234,7 @@ impl Enclosure {
     /// The magnitude.
     #[must_use]
     pub fn abs(self) -> Self {
-        let (low, high) = (self.low.negated(), self.high.negated());
-        if self.low.mantissa >= 0 {
-            self
-        } else if self.high.mantissa <= 0 {
-            Self {
-                low: high,
-                high: low,
-            }
-        } else {
-            Self {
-                low: Dyadic::ZERO,
-                high: low.max(self.high),
-            }
-        }
+        self.max(Self::ZERO - self).max(Self::ZERO)
     }
 
     /// The greater of two numbers.

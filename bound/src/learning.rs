@@ -1,11 +1,9 @@
 //! Convergence of iterative learning control from cycle to cycle, over a range of plants.
 
 use super::halving::Halving;
+use super::interval::Span;
 use super::observer::proportional_and_integral;
-use super::plant::ordered;
-use super::plants::PlantRange;
-use super::span::Span;
-use super::Interval;
+use super::{Interval, PlantRange};
 use alone::Loop;
 use bowden::control::{IterativeLearning, Pid};
 use bowden::{Error, Real};
@@ -18,7 +16,7 @@ mod cycle;
 const MOST_BOXES: u32 = 500_000;
 
 /// Maximum number of bisections of a region.
-const MOST_HALVINGS: u32 = 80;
+const DEEPEST: u32 = 80;
 
 /// Convergence of iterative learning control with a P or PI controller, for every plant of a range.
 ///
@@ -135,35 +133,28 @@ impl IterativeLearningConvergence {
         factor: f64,
     ) -> Result<Self, Error> {
         plants.check()?;
-        ordered(cycle, "cycle")?;
-        if cycle.low <= 0.0 {
-            return Err(Error::OutOfRange("cycle"));
-        }
+        cycle.above_zero("cycle")?;
         if !(factor > 0.0 && factor <= 1.0) {
             return Err(Error::OutOfRange("factor"));
         }
         learning.check_cells(cells)?;
         let (k_p, k_i) = proportional_and_integral(law.settings())?;
-        let all = plants.all(0.0);
         let closed = Loop {
             k_p,
             k_i,
-            natural_frequency: all.natural_frequency.middle(),
+            natural_frequency: plants.natural_frequency.middle(),
         };
-        let stable = closed.is_stable(&all).ok_or(Error::Inadmissible(
+        let stable = closed.is_stable(plants).ok_or(Error::Inadmissible(
             "the loop without learning must be stable with every plant of the range",
         ))?;
-        let count = Span::at(cells as f64);
-        let cell = Span {
-            low: (Span::at(cycle.low) * count.recip()).low,
-            high: (Span::at(cycle.high) * count.recip()).high,
-        };
-        let beyond = closed.beyond(&all, cell).ok_or(Error::Inadmissible(
+        let count = Span::exactly(cells as f64);
+        let cell = *cycle * count.recip();
+        let beyond = closed.beyond(plants, cell).ok_or(Error::Inadmissible(
             "the loop must hardly respond above the cells' Nyquist frequency",
         ))?;
-        let turn = Span::at(core::f64::consts::TAU);
-        let own = |cycle: f64| turn * Span::at(cycle).recip();
-        let phase = (Span::at(core::f64::consts::PI) * count.recip()).low;
+        let turn = Span::exactly(core::f64::consts::TAU);
+        let own = |cycle: f64| turn * Span::exactly(cycle).recip();
+        let phase = (Span::exactly(core::f64::consts::PI) * count.recip()).low;
         // Without an integral the mean is learned as well, and decays like the rest.
         let (lowest, least) = match k_i == 0.0 {
             true => (0.0, 0.0),
@@ -172,7 +163,7 @@ impl IterativeLearningConvergence {
         let proof = Cycle {
             closed: &closed,
             gain: learning.gain().as_f64(),
-            kept: Span::at(1.0) - Span::at(learning.forgetting().as_f64()),
+            kept: Span::exactly(1.0) - Span::exactly(learning.forgetting().as_f64()),
             lead: f64::from(learning.lead()),
             width: f64::from(learning.half_width()) + 1.0,
             factor,
@@ -180,20 +171,19 @@ impl IterativeLearningConvergence {
                 low: least,
                 high: Span::outward(0.0, core::f64::consts::FRAC_PI_2).high,
             },
-            images: (Span::at(learning.gain().as_f64().abs()) * Span::at(beyond)).high,
+            images: (Span::exactly(learning.gain().as_f64().abs()) * Span::exactly(beyond)).high,
         };
         let at = |low: f64, high: f64| Boxed {
             frequency: Span { low, high },
             cell,
-            plants: all,
+            plants: *plants,
         };
-        let half = Span::at(core::f64::consts::PI) * Span::at(cell.low).recip();
-        let mut halving = Halving::at_most(MOST_BOXES, MOST_HALVINGS);
+        let half = Span::exactly(core::f64::consts::PI) * Span::exactly(cell.low).recip();
+        let (to_nyquist, below) = (at(lowest, half.high), at(0.0, own(cycle.low).high));
+        let mut halving = Halving::at_most(MOST_BOXES);
         let halves = |of: &Boxed| proof.halves(of);
-        let to_nyquist = at(lowest, half.high);
-        let below = at(0.0, own(cycle.low).high);
-        let shrinks = halving.all(&to_nyquist, &|of| proof.is_small(of), &halves)
-            && (k_i == 0.0 || halving.all(&below, &|of| proof.is_below_one(of), &halves));
+        let shrinks = halving.all(&to_nyquist, DEEPEST, &|of| proof.is_small(of), &halves)
+            && (k_i == 0.0 || halving.all(&below, DEEPEST, &|of| proof.is_below_one(of), &halves));
         if !shrinks {
             return Err(Error::Inadmissible(
                 "every tone must shrink by the factor on every plant of the range",

@@ -1,8 +1,8 @@
 //! Robust stability of a PI controller with a disturbance observer, over a range of plants.
 
-use super::plants::{PlantRange, Plants};
-use super::span::{Plane, Span};
-use super::zeros::{excluded, Closed};
+use super::interval::{Plane, Span};
+use super::zeros::{doubled, excluded};
+use super::PlantRange;
 use bowden::control::{DerivativeSource, DisturbanceObserver, Pid, PidSettings};
 use bowden::{Error, Real};
 
@@ -87,10 +87,8 @@ struct Loop {
     k_i: f64,
     /// tau of Q.
     filter: f64,
-    gain: f64,
-    /// `1/wn²` and `2·zeta/wn` of the nominal plant.
-    curvature: Span,
-    rate: Span,
+    /// The nominal plant, without latency, joint and hysteresis.
+    nominal: PlantRange,
 }
 
 impl ObserverStability {
@@ -110,39 +108,36 @@ impl ObserverStability {
         plants.check()?;
         let (k_p, k_i) = proportional_and_integral(law.settings())?;
         let nominal = observer.plant();
-        let first = Plants {
-            gain: Span::at(nominal.gain().as_f64()),
-            natural_frequency: Span::at(nominal.natural_frequency().as_f64()),
-            damping_ratio: Span::at(nominal.damping_ratio().as_f64()),
-            joint: Span::at(0.0),
-            slope: Span::at(1.0),
-            latency: Span::at(0.0),
-            observed: Span::at(0.0),
-        };
-        let (curvature, rate) = first.denominator();
         let closed = Loop {
             k_p,
             k_i,
             filter: observer.time_constant().as_f64(),
-            gain: nominal.gain().as_f64(),
-            curvature,
-            rate,
+            nominal: PlantRange {
+                gain: Span::exactly(nominal.gain().as_f64()),
+                natural_frequency: Span::exactly(nominal.natural_frequency().as_f64()),
+                damping_ratio: Span::exactly(nominal.damping_ratio().as_f64()),
+                ..plants.plain()
+            },
         };
-        if (closed.gain > 0.0) != (plants.gain.low > 0.0) {
+        let nominal = closed.nominal;
+        if (nominal.gain.low > 0.0) != (plants.gain.low > 0.0) {
             return Err(Error::Inadmissible(
                 "gain and nominal gain must have the same sign",
             ));
         }
-        if !first.is_stable_with(k_p, k_i) {
+        if !nominal.is_stable_with(k_p, k_i) {
             return Err(Error::Inadmissible(
                 "the nominal loop without latency must be stable",
             ));
         }
         let shown =
             Error::Inadmissible("no plant of the range may come near the edge of stability");
-        let all = plants.all(observer.latency().as_f64());
-        let highest = closed.highest(&first, &all).ok_or(shown)?;
-        let boxes = excluded(&closed, first, all, highest).ok_or(shown)?;
+        let highest = closed.highest(&nominal.hull(*plants)).ok_or(shown)?;
+        let latency = observer.latency().as_f64();
+        let values = |w, plants: &PlantRange, observed| closed.values(w, plants, observed);
+        // At frequencies far below 1/tau, F hardly changes.
+        let scale = 0.1 / closed.filter;
+        let boxes = excluded(values, scale, [nominal, *plants], latency, highest).ok_or(shown)?;
         Ok(Self {
             plants: *plants,
             highest,
@@ -165,77 +160,39 @@ impl Loop {
     /// A frequency r above which the first term of F is the larger term. This holds at all
     /// `|s| >= r` in the right half-plane, for all plants on the path from the first plant. Both
     /// terms are divided by `|s|⁵`. Then one term decreases and the other increases with `1/|s|`.
-    fn highest(&self, first: &Plants, all: &Plants) -> Option<f64> {
-        let hull = first.hull(all);
-        let (curvature, rate) = hull.denominator();
-        let (least, most) = (Span::at(curvature.low), Span::at(rate.high));
-        let gain =
-            Span::at(hull.gain.high.abs().max(hull.gain.low.abs())) * Span::at(hull.slope.high);
-        let joint = Span::at(hull.joint.high);
-        let (filter, two) = (Span::at(self.filter), Span::at(2.0));
-        let mut r = self.filter.recip();
-        for _ in 0..64 {
-            let x = Span::at(r).recip();
-            let plant = least - x * (most + x);
+    fn highest(&self, hull: &PlantRange) -> Option<f64> {
+        let (filter, two) = (Span::exactly(self.filter), Span::exactly(2.0));
+        doubled(self.filter.recip(), |r| {
+            let x = Span::exactly(r).recip();
+            let (plant, answer) = hull.shares(x);
             let less_one = filter.square() - two * x * (filter + x);
-            let law = Span::at(self.k_p.abs()) + Span::at(self.k_i.abs()) * x;
-            let inverse = self.curvature + x * (self.rate + x);
-            let both = law * (filter + x).square() + inverse * Span::at(self.gain.abs()).recip();
-            let second = x * gain * (joint + x) * both;
-            if plant.low > 0.0 && less_one.low > 0.0 && (plant * less_one).low > second.high {
-                return Some(r);
-            }
-            r *= 2.0;
-        }
-        None
-    }
-}
-
-impl Closed for Loop {
-    /// At frequencies far below 1/tau, F hardly changes.
-    fn scale(&self) -> f64 {
-        0.1 / self.filter
+            let law = Span::exactly(self.k_p.abs()) + Span::exactly(self.k_i.abs()) * x;
+            let (curvature, rate) = self.nominal.denominator();
+            let inverse = curvature + x * (rate + x);
+            let gain = Span::exactly(self.nominal.gain.magnitude());
+            let both = law * (filter + x).square() + inverse * gain.recip();
+            let first = plant * less_one;
+            plant.low > 0.0 && less_one.low > 0.0 && first.low > (answer * both).high
+        })
     }
 
     /// A region that contains all values of F at these frequencies, or of F/s for a P controller.
-    fn values(&self, w: Span, plants: &Plants) -> Plane {
-        let (one, two) = (Span::at(1.0), Span::at(2.0));
-        let square = w.square();
-        let (curvature, rate) = plants.denominator();
-        let plant = Plane {
-            re: one - curvature * square,
-            im: rate * w,
-        };
-        let filter = Plane {
-            re: one - Span::at(self.filter).square() * square,
-            im: two * Span::at(self.filter) * w,
-        };
+    fn values(&self, w: Span, plants: &PlantRange, observed: Span) -> Plane {
+        let (one, filter) = (Span::exactly(1.0), Span::exactly(self.filter));
+        let (plant, delayed) = (plants.drive(w), plants.cable(w));
+        let square = filter.square() * w.square();
+        let filter = Plane::new(one - square, Span::exactly(2.0) * filter * w);
         // 1 − 1/(1 + jx) = (x² + jx)/(1 + x²).
-        let x = plants.observed * w;
+        let x = observed * w;
         let below = (one + x.square()).recip();
-        let less_one = Plane {
-            re: x.square() * below - Span::at(self.filter).square() * square,
-            im: filter.im + x * below,
-        };
-        let own = Span::at(self.gain).recip();
-        let inverse = Plane {
-            re: (one - self.curvature * square) * own,
-            im: self.rate * w * own,
-        };
-        let joint = Plane {
-            re: one,
-            im: plants.joint * w,
-        };
-        let delayed = (joint * Plane::late(plants.latency * w)).times(plants.gain * plants.slope);
+        let less_one = Plane::new(x.square() * below - square, filter.im + x * below);
+        let inverse = self.nominal.drive(w).times(self.nominal.gain.recip());
         let first = plant * less_one;
-        let k_p = Span::at(self.k_p);
+        let k_p = Span::exactly(self.k_p);
         if self.k_i == 0.0 {
             return first + delayed * (filter.times(k_p) + inverse);
         }
-        let law = Plane {
-            re: Span::at(self.k_i),
-            im: k_p * w,
-        };
+        let law = Plane::new(Span::exactly(self.k_i), k_p * w);
         first.turned(w) + delayed * (law * filter + inverse.turned(w))
     }
 }

@@ -1,7 +1,7 @@
 //! The peak certificate in continuous time.
 
-use super::truth::{bounded, literal, loop_gain, mismatch};
-use super::{Certificate, Interval, Kind, Plant};
+use super::truth::{bounded, Case};
+use super::{Certificate, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
@@ -63,26 +63,19 @@ impl<T: Real> PeakContinuous<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
+        let case = Case::try_new(law, plant)?.published()?;
         let settings = law.settings();
-        let g = loop_gain(law, plant)?;
+        let g = case.loop_gain()?;
         let squared = settings.lambda * settings.lambda;
         // g·kappa is linear in g on either side of the kink, so least at one of three.
         let kink = squared / (T::one() + squared);
-        let mut stiffness = g_kappa(settings.gain, squared, g.low);
-        for at in [kink, g.high] {
-            if g.low <= at && at <= g.high {
-                let here = g_kappa(settings.gain, squared, at);
-                if here < stiffness {
-                    stiffness = here;
-                }
-            }
-        }
+        let ends = [g.low, kink.max(g.low).min(g.high), g.high];
+        let each = ends.map(|g| g_kappa(settings.gain, squared, g));
+        let stiffness = each.into_iter().fold(T::infinity(), T::min);
         if stiffness <= T::zero() {
             return Err(Error::Inadmissible("k > 1/lambda² - 2*(1/g - 1)"));
         }
-        let s = bounded(push(law, plant, g, plant.reference) / stiffness)?;
+        let s = bounded(case.push(g, plant.reference) / stiffness)?;
         Ok(Self {
             s,
             bound: bounded(T::from_f64(2.0) * s)?,
@@ -92,10 +85,7 @@ impl<T: Real> PeakContinuous<T> {
     /// The bound 2·S as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::PeakContinuous,
-            value: self.bound,
-        }
+        Certificate::new(Kind::PeakContinuous, self.bound)
     }
 }
 
@@ -107,21 +97,4 @@ fn g_kappa<T: Real>(gain: T, squared: T, g: T) -> T {
     } else {
         g * (gain - inverse) + T::from_f64(2.0) * (T::one() - g)
     }
-}
-
-/// Largest `|w| = |(g-1)·reference + (g·theta_hat - theta)'x - D|` \[N·m\].
-pub(super) fn push<T: Real, const N: usize>(
-    law: &Adaptive<T, N>,
-    plant: &Plant<T, N>,
-    g: Interval<T>,
-    reference: T,
-) -> T {
-    let detuning = g.max_distance_from(T::one());
-    // Without a reference, an unbounded g does no harm: 0·inf would be NaN.
-    let reference = if reference == T::zero() {
-        T::zero()
-    } else {
-        detuning * reference
-    };
-    reference + mismatch(law, plant, g) + plant.delta
 }

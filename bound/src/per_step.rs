@@ -1,8 +1,8 @@
 //! Theorem 1 in sampled time: the change of the Lyapunov function in one step.
 
-use super::truth::{adapting, bounded, range, sum};
+use super::truth::{bounded, estimators, first_order, Adapting, Case, VARYING};
 use super::{Certificate, Interval, Kind, PeakSampled, Plant};
-use bowden::control::{Adaptive, Form, Leakage};
+use bowden::control::{Adaptive, Leakage};
 use bowden::{Error, Real};
 
 /// `V⁺ <= (1 - h·rate)·V + h·input` for the first-order form: Theorem 1 in sampled time.
@@ -69,56 +69,34 @@ impl<T: Real> PerStep<T> {
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         let within = PeakSampled::try_new(law, plant)?;
-        let settings = law.settings();
-        let Form::FirstOrder { step, .. } = settings.form else {
-            return Err(Error::Inadmissible("the gains must be in first-order form"));
-        };
+        let (case, settings) = (Case::try_new(law, plant)?, law.settings());
+        let [step, _] = first_order(settings)?;
         let (gain, lambda, two) = (settings.gain, settings.lambda, T::from_f64(2.0));
-        let mut rate = if gain < two {
-            gain * lambda
-        } else {
-            two * lambda
-        };
-        let leaking = [settings.beta, settings.delta];
-        for estimator in leaking.iter().chain(&settings.theta) {
-            if range(estimator, settings.frozen).low == range(estimator, settings.frozen).high {
-                continue;
-            }
-            let Leakage::Constant { rate: sigma } = estimator.leakage else {
-                return Err(Error::Inadmissible(
-                    "the leakage of every estimate must be constant",
-                ));
-            };
-            let lost = sigma / (T::one() + step * sigma);
-            if lost < rate {
-                rate = lost;
+        let mut rate = gain.min(two) * lambda;
+        for estimator in estimators(settings) {
+            let range = case.range(estimator);
+            match estimator.leakage {
+                _ if range.low == range.high => {}
+                Leakage::Constant { rate: sigma } => {
+                    rate = rate.min(sigma / (T::one() + step * sigma));
+                }
+                _ => return Err(VARYING),
             }
         }
         if rate <= T::zero() || step * rate > T::one() {
             return Err(Error::Inadmissible("leakage > 0 and h*rate <= 1"));
         }
-        let deltas = range(&settings.delta, settings.frozen);
-        // A constant estimate is measured against itself, also above Delta.
-        let target = if deltas.high < plant.delta || deltas.low == deltas.high {
-            deltas.high
-        } else {
-            plant.delta
-        };
-        // (p* - p0)²·sigma/(2·m) is twice the residue; v² of beta and theta follow below.
-        let mut input = two * sum(law, plant, |estimate| Ok(estimate.residue()))?;
-        let mut second_order = second_order(law, plant, &within);
-        let truth = Interval::exactly(target);
-        if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
-            input += two * delta.residue();
-            let v = lambda * within.s;
-            second_order += delta.gain * v * v;
-        }
-        input += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * target;
+        let target = highest_target(case.range(&settings.delta), plant.delta);
+        // (p* - p0)²·sigma/(2·m) is twice the residue.
+        let mut input = two * case.sum(Adapting::residue)?;
+        let delta = case.delta(target)?;
+        input += delta.map_or(T::zero(), |delta| two * delta.residue());
+        input += case.smoothing() * target;
         if target < plant.delta {
             input += lambda * within.s * (plant.delta - target);
         }
         input += within.xi * within.xi / (two * gain * lambda);
-        input += step * second_order / two;
+        input += step * second_order(&case, &within, delta) / two;
         Ok(Self {
             within,
             step,
@@ -132,34 +110,41 @@ impl<T: Real> PerStep<T> {
     /// The resulting bound on limsup `|e|`: `(1 + lambda)·sqrt(2·input/rate)` \[N·m\].
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        let v = self.input / self.rate;
-        Certificate {
-            kind: Kind::PerStep,
-            value: (T::one() + self.lambda) * (T::from_f64(2.0) * v).sqrt(),
-        }
+        let size = (T::from_f64(2.0) * (self.input / self.rate)).sqrt();
+        Certificate::new(Kind::PerStep, (T::one() + self.lambda) * size)
     }
 }
 
-/// R without the part of delta_hat, at worst in the box.
+/// The highest useful target of delta_hat: Delta, or the highest estimate if this is lower. A
+/// constant estimate is measured against itself, also above Delta.
+pub(super) fn highest_target<T: Real>(estimates: Interval<T>, delta: T) -> T {
+    if estimates.low == estimates.high {
+        estimates.high
+    } else {
+        estimates.high.min(delta)
+    }
+}
+
+/// R, at worst in the box, with `delta` for delta_hat.
 pub(super) fn second_order<T: Real, const N: usize>(
-    law: &Adaptive<T, N>,
-    plant: &Plant<T, N>,
+    case: &Case<'_, T, N>,
     within: &PeakSampled<T>,
+    delta: Option<Adapting<T>>,
 ) -> T {
-    let settings = law.settings();
+    let Case { settings, plant } = case;
     let (lambda, s, g) = (settings.lambda, within.s, within.g.high);
-    let delta = range(&settings.delta, settings.frozen).high;
+    let most = case.range(&settings.delta).high;
     let ds =
-        lambda * g * (settings.gain * s + delta) + g * s / lambda + lambda * within.w + within.xi;
+        lambda * g * (settings.gain * s + most) + g * s / lambda + lambda * within.w + within.xi;
     let dz = T::from_f64(2.0) * s;
     let mut rest = ds * ds + dz * dz;
     let mut virtual_command = settings.gain * s
         + s / (lambda * lambda)
         + plant.reference
         + plant.reference_rate / lambda
-        + delta;
+        + most;
     for (theta, known) in settings.theta.iter().zip(&plant.regressors) {
-        let estimate = range(theta, settings.frozen).magnitude();
+        let estimate = case.range(theta).magnitude();
         let v = lambda * s * known.magnitude;
         if known.magnitude > T::zero() {
             virtual_command += estimate * known.magnitude;
@@ -167,5 +152,7 @@ pub(super) fn second_order<T: Real, const N: usize>(
         }
     }
     let v = lambda * s * virtual_command;
-    rest + plant.alpha.high * settings.beta.gain * v * v
+    rest += plant.alpha.high * settings.beta.gain * v * v;
+    let v = lambda * s;
+    rest + delta.map_or(T::zero(), |delta| delta.estimator.gain * v * v)
 }

@@ -1,62 +1,8 @@
 //! Known ranges of the plant (11), `y = alpha·u - theta'x - D`.
 
-use crate::checked::finite;
+use super::Interval;
+use crate::checked::not_negative;
 use bowden::{Error, Real};
-
-/// Interval of a plant constant.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Interval<T> {
-    /// Lower end \[unit of the constant\].
-    pub low: T,
-    /// Upper end \[unit of the constant\].
-    pub high: T,
-}
-
-impl<T: Real> Interval<T> {
-    /// A constant with a known value.
-    #[must_use]
-    pub fn exactly(value: T) -> Self {
-        Self {
-            low: value,
-            high: value,
-        }
-    }
-
-    /// The interval between two values, in any order.
-    ///
-    /// ```
-    /// use bowden_bound::Interval;
-    /// assert_eq!(Interval::between(2.0, -1.0), Interval { low: -1.0, high: 2.0 });
-    /// ```
-    #[must_use]
-    pub fn between(a: T, b: T) -> Self {
-        if a < b {
-            Self { low: a, high: b }
-        } else {
-            Self { low: b, high: a }
-        }
-    }
-
-    /// Largest magnitude in the interval.
-    #[must_use]
-    pub fn magnitude(&self) -> T {
-        self.max_distance_from(T::zero())
-    }
-
-    /// Largest distance between `point` and a number of the interval.
-    #[must_use]
-    pub fn max_distance_from(&self, point: T) -> T {
-        let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
-        if low > high {
-            low
-        } else {
-            high
-        }
-    }
-}
 
 /// Known ranges of one regressor and its coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -126,16 +72,13 @@ impl<T: Real, const N: usize> Plant<T, N> {
 
     /// Rejects values that cannot describe a plant.
     pub(super) fn check(&self) -> Result<(), Error> {
-        ordered(&self.alpha, "alpha")?;
-        if self.alpha.low <= T::zero() {
-            return Err(Error::OutOfRange("alpha"));
-        }
+        self.alpha.above_zero("alpha")?;
         not_negative(self.delta, "delta")?;
         not_negative(self.delta_rate, "delta_rate")?;
         not_negative(self.reference, "reference")?;
         not_negative(self.reference_rate, "reference_rate")?;
         for known in &self.regressors {
-            ordered(&known.theta, "theta")?;
+            known.theta.ordered("theta")?;
             not_negative(known.magnitude, "magnitude")?;
             not_negative(known.rate, "rate")?;
         }
@@ -149,19 +92,4 @@ impl<T: Real, const N: usize> Plant<T, N> {
             sum + known.theta.magnitude() * of(known)
         })
     }
-}
-
-pub(super) fn ordered<T: Real>(interval: &Interval<T>, name: &'static str) -> Result<(), Error> {
-    finite(interval.low, name)?;
-    if interval.low > finite(interval.high, name)? {
-        return Err(Error::OutOfRange(name));
-    }
-    Ok(())
-}
-
-fn not_negative<T: Real>(value: T, name: &'static str) -> Result<(), Error> {
-    if finite(value, name)? < T::zero() {
-        return Err(Error::OutOfRange(name));
-    }
-    Ok(())
 }

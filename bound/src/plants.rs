@@ -1,8 +1,8 @@
 //! Nominal parameters with tolerances of the plant between command and measured output.
 
-use super::plant::ordered;
-use super::span::Span;
+use super::interval::{Plane, Span};
 use super::Interval;
+use crate::checked::not_negative;
 use bowden::Error;
 
 /// Range of the plant between command and measured output: nominal parameters with tolerances.
@@ -35,59 +35,124 @@ pub struct PlantRange {
     pub latency: Interval<f64>,
 }
 
-/// Plants between bounds of every number, together with the observer's latency.
-#[derive(Clone, Copy)]
-pub(super) struct Plants {
-    pub(super) gain: Span,
-    pub(super) natural_frequency: Span,
-    pub(super) damping_ratio: Span,
-    pub(super) joint: Span,
-    pub(super) slope: Span,
-    pub(super) latency: Span,
-    pub(super) observed: Span,
-}
+impl PlantRange {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        self.gain.ordered("gain")?;
+        if self.gain.low <= 0.0 && self.gain.high >= 0.0 {
+            return Err(Error::OutOfRange("gain"));
+        }
+        self.natural_frequency.above_zero("natural_frequency")?;
+        self.slope.above_zero("slope")?;
+        for (interval, name) in [
+            (&self.damping_ratio, "damping_ratio"),
+            (&self.joint, "joint"),
+            (&self.latency, "latency"),
+        ] {
+            interval.ordered(name)?;
+            not_negative(interval.low, name)?;
+        }
+        Ok(())
+    }
 
-impl Plants {
+    /// The parameters, in the order of the fields.
+    fn parameters(&mut self) -> [&mut Span; 6] {
+        [
+            &mut self.gain,
+            &mut self.natural_frequency,
+            &mut self.damping_ratio,
+            &mut self.joint,
+            &mut self.slope,
+            &mut self.latency,
+        ]
+    }
+
+    /// The range whose parameters are `of` the parameters of this range and of another.
+    fn with(mut self, mut other: Self, of: impl Fn(Span, Span) -> Span) -> Self {
+        for (own, other) in self.parameters().into_iter().zip(other.parameters()) {
+            *own = of(*own, *other);
+        }
+        self
+    }
+
+    /// The plants without latency, joint and hysteresis.
+    pub(super) fn plain(self) -> Self {
+        let zero = Span::exactly(0.0);
+        Self {
+            joint: zero,
+            slope: Span::exactly(1.0),
+            latency: zero,
+            ..self
+        }
+    }
+
+    /// The plant in the middle of the range.
+    pub(super) fn middle(self) -> Self {
+        self.with(self, |own, _| Span::exactly(own.middle()))
+    }
+
+    /// These plants, the other plants, and all plants between them.
+    pub(super) fn hull(self, other: Self) -> Self {
+        self.with(other, |a, b| Span {
+            low: a.low.min(b.low),
+            high: a.high.max(b.high),
+        })
+    }
+
+    /// Between two plants, at a fraction of the path.
+    pub(super) fn between(self, other: Self, part: Span) -> Self {
+        self.with(other, |a, b| a.towards(b, part))
+    }
+
     /// `f/wn²` and `f·2·zeta/wn + c/K`.
     pub(super) fn denominator(&self) -> (Span, Span) {
         let slow = self.natural_frequency.recip();
-        let rate = Span::at(2.0) * self.damping_ratio * slow;
+        let rate = Span::exactly(2.0) * self.damping_ratio * slow;
         (self.slope * slow.square(), self.slope * rate + self.joint)
+    }
+
+    /// D~ at the frequencies w.
+    pub(super) fn drive(&self, w: Span) -> Plane {
+        let (curvature, rate) = self.denominator();
+        Plane::new(Span::exactly(1.0) - curvature * w.square(), rate * w)
+    }
+
+    /// `f·alpha~·(1 + c/K·s)·e^(−theta·s)` at the frequencies w.
+    pub(super) fn cable(&self, w: Span) -> Plane {
+        let joint = Plane::new(Span::exactly(1.0), self.joint * w);
+        (joint * Plane::late(self.latency * w)).times(self.gain * self.slope)
+    }
+
+    /// Lower bound on `|D~|/|s|²` and upper bound on `f·alpha~·|1 + c/K·s|/|s|²`, for all
+    /// `|s| >= 1/x` in the right half-plane.
+    pub(super) fn shares(&self, x: Span) -> (Span, Span) {
+        let (curvature, rate) = self.denominator();
+        let gain = Span::exactly(self.gain.magnitude()) * Span::exactly(self.slope.high);
+        let least = Span::exactly(curvature.low) - x * (Span::exactly(rate.high) + x);
+        (least, gain * x * (Span::exactly(self.joint.high) + x))
     }
 
     /// The two halves along the parameter that changes F most, and the size of this change.
     pub(super) fn halves(&self, frequency: f64) -> (f64, [Self; 2]) {
         let share = |span: Span| span.width() / span.middle().abs();
-        let sizes = [
+        self.largest([
             share(self.gain),
             2.0 * share(self.natural_frequency),
             self.damping_ratio.width(),
             self.joint.width() * frequency,
             share(self.slope),
             self.latency.width() * frequency,
-        ];
-        self.largest(sizes)
+        ])
     }
 
-    /// The two halves along the parameter with the largest size, and that size. The order is that
-    /// of the fields of [`PlantRange`].
+    /// The two halves along the parameter with the largest size, and that size.
     pub(super) fn largest(&self, sizes: [f64; 6]) -> (f64, [Self; 2]) {
         let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
-        let [gain, natural_frequency, damping_ratio, joint, slope, _] = sizes.map(|x| x >= most);
+        let widest = sizes.iter().position(|x| *x >= most).unwrap_or(5);
         let (mut first, mut second) = (*self, *self);
-        let split = |low: &mut Span, high: &mut Span| [*low, *high] = low.halves();
-        if gain {
-            split(&mut first.gain, &mut second.gain);
-        } else if natural_frequency {
-            split(&mut first.natural_frequency, &mut second.natural_frequency);
-        } else if damping_ratio {
-            split(&mut first.damping_ratio, &mut second.damping_ratio);
-        } else if joint {
-            split(&mut first.joint, &mut second.joint);
-        } else if slope {
-            split(&mut first.slope, &mut second.slope);
-        } else {
-            split(&mut first.latency, &mut second.latency);
+        let (own, other) = (first.parameters(), second.parameters());
+        let split = own.into_iter().zip(other).nth(widest);
+        if let Some((low, high)) = split {
+            [*low, *high] = low.halves();
         }
         (most, [first, second])
     }
@@ -96,100 +161,10 @@ impl Plants {
     /// without latency, joint and hysteresis, with a P or PI.
     pub(super) fn is_stable_with(&self, k_p: f64, k_i: f64) -> bool {
         let (curvature, rate) = self.denominator();
-        let one = Span::at(1.0) + self.gain * Span::at(k_p);
-        let integral = self.gain * Span::at(k_i);
+        let one = Span::exactly(1.0) + self.gain * Span::exactly(k_p);
+        let integral = self.gain * Span::exactly(k_i);
         let margin = rate * one - curvature * integral;
         let holds = rate.low > 0.0 && one.low > 0.0;
         holds && (k_i == 0.0 || (integral.low > 0.0 && margin.low > 0.0))
-    }
-
-    /// The plant in the middle of the range.
-    pub(super) fn middle(&self) -> Self {
-        let middle = |span: Span| Span::at(span.middle());
-        Self {
-            gain: middle(self.gain),
-            natural_frequency: middle(self.natural_frequency),
-            damping_ratio: middle(self.damping_ratio),
-            joint: middle(self.joint),
-            slope: middle(self.slope),
-            latency: middle(self.latency),
-            observed: self.observed,
-        }
-    }
-
-    /// These plants, the other plants, and all plants between them.
-    pub(super) fn hull(&self, other: &Self) -> Self {
-        let hull = |a: Span, b: Span| Span {
-            low: a.low.min(b.low),
-            high: a.high.max(b.high),
-        };
-        Self {
-            gain: hull(self.gain, other.gain),
-            natural_frequency: hull(self.natural_frequency, other.natural_frequency),
-            damping_ratio: hull(self.damping_ratio, other.damping_ratio),
-            joint: hull(self.joint, other.joint),
-            slope: hull(self.slope, other.slope),
-            latency: hull(self.latency, other.latency),
-            observed: hull(self.observed, other.observed),
-        }
-    }
-
-    /// Between two plants, at a fraction of the path.
-    pub(super) fn between(&self, other: &Self, part: Span) -> Self {
-        let mix = |a: Span, b: Span| a + (b - a) * part;
-        Self {
-            gain: mix(self.gain, other.gain),
-            natural_frequency: mix(self.natural_frequency, other.natural_frequency),
-            damping_ratio: mix(self.damping_ratio, other.damping_ratio),
-            joint: mix(self.joint, other.joint),
-            slope: mix(self.slope, other.slope),
-            latency: mix(self.latency, other.latency),
-            observed: mix(self.observed, other.observed),
-        }
-    }
-}
-
-impl PlantRange {
-    pub(super) fn check(&self) -> Result<(), Error> {
-        ordered(&self.gain, "gain")?;
-        if self.gain.low <= 0.0 && self.gain.high >= 0.0 {
-            return Err(Error::OutOfRange("gain"));
-        }
-        ordered(&self.natural_frequency, "natural_frequency")?;
-        if self.natural_frequency.low <= 0.0 {
-            return Err(Error::OutOfRange("natural_frequency"));
-        }
-        ordered(&self.slope, "slope")?;
-        if self.slope.low <= 0.0 {
-            return Err(Error::OutOfRange("slope"));
-        }
-        for (interval, name) in [
-            (&self.damping_ratio, "damping_ratio"),
-            (&self.joint, "joint"),
-            (&self.latency, "latency"),
-        ] {
-            ordered(interval, name)?;
-            if interval.low < 0.0 {
-                return Err(Error::OutOfRange(name));
-            }
-        }
-        Ok(())
-    }
-
-    /// The whole range, with an observer of this latency.
-    pub(super) fn all(&self, observed: f64) -> Plants {
-        let span = |of: &Interval<f64>| Span {
-            low: of.low,
-            high: of.high,
-        };
-        Plants {
-            gain: span(&self.gain),
-            natural_frequency: span(&self.natural_frequency),
-            damping_ratio: span(&self.damping_ratio),
-            joint: span(&self.joint),
-            slope: span(&self.slope),
-            latency: span(&self.latency),
-            observed: Span::at(observed),
-        }
     }
 }

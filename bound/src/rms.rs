@@ -1,12 +1,10 @@
 //! The RMS certificate: a bound on the mean square error from the algebra of Theorem 1.
 
-use super::truth::{adapting, bounded, literal, range, sum, Adapting};
-use super::{Certificate, Interval, Kind, Plant};
+use super::mean::Mean;
+use super::truth::{bounded, Case};
+use super::{Certificate, Kind, Plant};
 use bowden::control::Adaptive;
 use bowden::{Error, Real};
-
-/// Number of bisections in the search for the target: more than an `f64` can distinguish.
-const NARROWINGS: u32 = 90;
 
 /// Root mean square of the error over a long time.
 ///
@@ -39,7 +37,7 @@ const NARROWINGS: u32 = 90;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Rms<T> {
+pub struct Rms<T: Real> {
     /// The bound on rms(e) over a long time \[N·m\].
     pub bound: T,
     /// The same bound with the target Delta, or the nearest value within the bounds of
@@ -47,18 +45,7 @@ pub struct Rms<T> {
     pub at_full_target: T,
     /// The best target of delta_hat \[N·m\].
     pub target: T,
-    gain: T,
-    lambda: T,
-    /// phi_a without the part of delta_hat.
-    phi: T,
-    /// V(0) without the part of delta_hat and of the error.
-    at_start: T,
-    /// W·epsilon.
-    smoothing: T,
-    delta: T,
-    /// Adaptation of delta_hat, without its true value, which is the target. `None` if delta_hat is
-    /// constant.
-    adapting: Option<Adapting<T>>,
+    mean: Mean<T>,
 }
 
 impl<T: Real> Rms<T> {
@@ -71,44 +58,22 @@ impl<T: Real> Rms<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
-        let settings = law.settings();
-        let within = range(&settings.delta, settings.frozen);
+        let case = Case::try_new(law, plant)?.published()?;
+        let within = case.range(&law.settings().delta);
         if within.high < T::zero() {
             return Err(Error::Inadmissible("delta.high >= 0"));
         }
-        let lowest = if within.low > T::zero() {
-            within.low
-        } else {
-            T::zero()
-        };
-        let highest = if within.high < plant.delta {
-            within.high
-        } else {
-            plant.delta
-        };
+        let lowest = within.low.max(T::zero());
         // An estimate that is always above Delta has its least value as target.
-        let highest = if highest < lowest { lowest } else { highest };
-        let adapting = adapting(&settings.delta, settings.frozen, Interval::exactly(highest))?;
-        let mut certificate = Self {
-            bound: T::zero(),
-            at_full_target: T::zero(),
-            target: highest,
-            gain: settings.gain,
-            lambda: settings.lambda,
-            phi: sum(law, plant, |estimate| Ok(estimate.residue()))?,
-            at_start: sum(law, plant, |estimate| Ok(estimate.at_start()))?,
-            smoothing: settings.smooth_sign.residue::<T>() * settings.epsilon,
-            delta: plant.delta,
-            adapting,
-        };
-        certificate.at_full_target = bounded(certificate.aimed_at(highest, T::zero()))?;
-        if certificate.adapting.is_some() {
-            certificate.target = certificate.best(lowest, highest);
-        }
-        certificate.bound = certificate.aimed_at(certificate.target, T::zero());
-        Ok(certificate)
+        let highest = within.high.min(plant.delta).max(lowest);
+        let mean = Mean::try_new(&case, highest)?;
+        let target = mean.best(lowest, highest);
+        Ok(Self {
+            bound: mean.bound(target, T::zero()),
+            at_full_target: bounded(mean.bound(highest, T::zero()))?,
+            target,
+            mean,
+        })
     }
 
     /// Bound on rms(e) \[N·m\] over the first `duration` \[s\], from an initial error
@@ -117,53 +82,12 @@ impl<T: Real> Rms<T> {
     /// This bound includes V(0), which dominates for minutes if beta_hat is initially zero.
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {
-        let mut v = self.at_start + start * start * T::from_f64(0.5);
-        if let Some(delta) = self.aim(self.target) {
-            v += delta.at_start();
-        }
-        self.aimed_at(self.target, v / duration)
+        self.mean.over(self.target, duration, start)
     }
 
     /// The bound over a long time as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::Rms,
-            value: self.bound,
-        }
-    }
-
-    fn aim(&self, target: T) -> Option<Adapting<T>> {
-        let truth = Interval::exactly(target);
-        self.adapting.map(|delta| Adapting { truth, ..delta })
-    }
-
-    /// The bound with the target `target` of delta_hat, and `extra` in addition to phi_a.
-    fn aimed_at(&self, target: T, extra: T) -> T {
-        let residue = self.aim(target).map_or(T::zero(), |delta| delta.residue());
-        let smoothing = self.smoothing * self.lambda * target;
-        let phi = self.phi + residue + smoothing + extra;
-        // A target above Delta has no difference; a lower target has one.
-        let left = if target < self.delta {
-            self.delta - target
-        } else {
-            T::zero()
-        };
-        let root = (left * left + T::from_f64(4.0) * self.gain * phi / self.lambda).sqrt();
-        (left + root) / (T::from_f64(2.0) * self.gain)
-    }
-
-    /// Ternary search: the targets with a bound below a level form an interval.
-    fn best(&self, mut low: T, mut high: T) -> T {
-        let third = T::one() / T::from_f64(3.0);
-        for _ in 0..NARROWINGS {
-            let (a, b) = (low + (high - low) * third, high - (high - low) * third);
-            if self.aimed_at(a, T::zero()) < self.aimed_at(b, T::zero()) {
-                high = b;
-            } else {
-                low = a;
-            }
-        }
-        high
+        Certificate::new(Kind::Rms, self.bound)
     }
 }

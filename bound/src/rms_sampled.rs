@@ -1,9 +1,10 @@
 //! The RMS certificate of the first-order form in sampled time.
 
-use super::per_step::second_order;
-use super::truth::{adapting, bounded, range, sum, Adapting};
-use super::{Certificate, Interval, Kind, PeakSampled, Plant};
-use bowden::control::{Adaptive, Form, Leakage};
+use super::mean::Mean;
+use super::per_step::{highest_target, second_order};
+use super::truth::{bounded, estimators, first_order, Case, VARYING};
+use super::{Certificate, Kind, PeakSampled, Plant};
+use bowden::control::{Adaptive, Estimator, Leakage};
 use bowden::{Error, Real};
 
 /// Root mean square of the error of the first-order form over a long time, in sampled time.
@@ -39,31 +40,15 @@ use bowden::{Error, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RmsSampled<T> {
+pub struct RmsSampled<T: Real> {
     /// The bound on rms(e) over a long time \[N·m\].
     pub bound: T,
     /// The best reference value of delta_hat \[N·m\].
     pub target: T,
     /// The box of the errors in which the bound holds.
     pub within: PeakSampled<T>,
-    /// phi without the part of delta_hat.
-    phi: T,
-    /// V(0) without the parts of delta_hat and of the error.
-    at_start: T,
-    smoothing: T,
-    delta: T,
-    gain: T,
-    lambda: T,
-    step: T,
-    /// Largest weight of an estimate in V, `1 + h·sigma`; at least 2, which covers s and z.
-    weight: T,
-    /// Adaptation of delta_hat, without its true value, which is the target. `None` if delta_hat is
-    /// constant.
-    adapting: Option<Adapting<T>>,
+    mean: Mean<T>,
 }
-
-/// Rounds of the search for the target.
-const NARROWINGS: u32 = 90;
 
 impl<T: Real> RmsSampled<T> {
     /// The certificate of an adaptive law with a plant.
@@ -76,121 +61,54 @@ impl<T: Real> RmsSampled<T> {
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
         let within = PeakSampled::try_new(law, plant)?;
-        let settings = law.settings();
-        let Form::FirstOrder { step, .. } = settings.form else {
-            return Err(Error::Inadmissible("the gains must be in first-order form"));
-        };
-        if step * settings.lambda >= T::one() {
+        let (case, settings) = (Case::try_new(law, plant)?, law.settings());
+        let [step, _] = first_order(settings)?;
+        let (lambda, two) = (settings.lambda, T::from_f64(2.0));
+        if step * lambda >= T::one() {
             return Err(Error::Inadmissible("h*lambda < 1"));
         }
-        let two = T::from_f64(2.0);
+        // Largest weight of an estimate in V, `1 + h·sigma`; at least 2, which covers s and z.
         let mut weight = two;
-        let leaking = [settings.beta, settings.delta];
-        for estimator in leaking.iter().chain(&settings.theta) {
-            if let Leakage::Switching { .. } = estimator.leakage {
-                return Err(Error::Inadmissible(
-                    "the leakage of every estimate must be constant",
-                ));
+        for Estimator { leakage, .. } in estimators(settings) {
+            if let Leakage::Switching { .. } = leakage {
+                return Err(VARYING);
             }
-            let own = T::one() + step * estimator.leakage.rate();
-            if own > weight {
-                weight = own;
-            }
+            weight = weight.max(T::one() + step * leakage.rate());
         }
-        let deltas = range(&settings.delta, settings.frozen);
-        let stays = deltas.low == deltas.high;
-        let highest = if deltas.high < plant.delta || stays {
-            deltas.high
-        } else {
-            plant.delta
-        };
-        let lowest = if deltas.low < highest {
-            deltas.low
-        } else {
-            highest
-        };
-        let adapting = adapting(&settings.delta, settings.frozen, Interval::exactly(highest))?;
-        let mut second = second_order(law, plant, &within);
-        if let Some(delta) = &adapting {
-            let v = settings.lambda * within.s;
-            second += delta.gain * v * v;
-        }
-        let residues = sum(law, plant, |estimate| Ok(estimate.residue()))?;
-        let mut found = Self {
-            bound: T::zero(),
-            target: highest,
-            within,
-            phi: two * residues + step * second / two,
-            at_start: sum(law, plant, |estimate| Ok(estimate.at_start()))?,
-            smoothing: settings.smooth_sign.residue::<T>() * settings.epsilon * settings.lambda,
-            delta: plant.delta,
-            gain: settings.gain,
-            lambda: settings.lambda,
-            step,
+        let deltas = case.range(&settings.delta);
+        let highest = highest_target(deltas, plant.delta);
+        let mean = Mean::try_new(&case, highest)?;
+        let second = second_order(&case, &within, mean.adapting);
+        let mean = Mean {
+            phi: two * mean.phi + step * second / two,
+            residues: two,
+            stiffness: settings.gain * lambda,
+            share: lambda,
+            xi: within.xi,
+            per: T::one(),
             weight,
-            adapting,
+            kept: (T::one() - step * lambda).sqrt(),
+            ..mean
         };
-        if found.adapting.is_some() {
-            found.target = found.best(lowest, highest);
-        }
-        found.bound = bounded(found.aimed_at(found.target, T::zero()))?;
-        Ok(found)
+        let target = mean.best(deltas.low.min(highest), highest);
+        Ok(Self {
+            bound: bounded(mean.bound(target, T::zero()))?,
+            target,
+            within,
+            mean,
+        })
     }
 
     /// Bound on rms(e) \[N·m\] over the first `duration` \[s\], from an initial error
     /// `start` \[N·m\].
     #[must_use]
     pub fn over(&self, duration: T, start: T) -> T {
-        let mut v = self.at_start + start * start * T::from_f64(0.5);
-        if let Some(delta) = self.aim(self.target) {
-            v += delta.at_start();
-        }
-        self.aimed_at(self.target, self.weight * v / duration)
+        self.mean.over(self.target, duration, start)
     }
 
     /// The bound over a long time as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::RmsSampled,
-            value: self.bound,
-        }
-    }
-
-    fn aim(&self, target: T) -> Option<Adapting<T>> {
-        let truth = Interval::exactly(target);
-        self.adapting.map(|delta| Adapting { truth, ..delta })
-    }
-
-    /// The bound with delta_hat measured against `target`, and `extra` in addition to phi.
-    fn aimed_at(&self, target: T, extra: T) -> T {
-        let two = T::from_f64(2.0);
-        let residue = self.aim(target).map_or(T::zero(), |d| two * d.residue());
-        let phi = self.phi + residue + self.smoothing * target + extra;
-        // A target above Delta has no difference; a lower target has one.
-        let left = if target < self.delta {
-            self.lambda * (self.delta - target)
-        } else {
-            T::zero()
-        };
-        let linear = left + self.within.xi;
-        let stiffness = self.gain * self.lambda;
-        let root = (linear * linear + T::from_f64(4.0) * stiffness * phi).sqrt();
-        let s = (linear + root) / (two * stiffness);
-        s / (T::one() - self.step * self.lambda).sqrt()
-    }
-
-    /// Ternary search: the targets with a bound below a level form an interval.
-    fn best(&self, mut low: T, mut high: T) -> T {
-        let third = T::one() / T::from_f64(3.0);
-        for _ in 0..NARROWINGS {
-            let (a, b) = (low + (high - low) * third, high - (high - low) * third);
-            if self.aimed_at(a, T::zero()) < self.aimed_at(b, T::zero()) {
-                high = b;
-            } else {
-                low = a;
-            }
-        }
-        high
+        Certificate::new(Kind::RmsSampled, self.bound)
     }
 }

@@ -1,9 +1,8 @@
 //! The box theorem: the peak certificate of the first-order form in sampled time.
 
-use super::peak::push;
-use super::truth::{bounded, loop_gain};
+use super::truth::{bounded, first_order, Case};
 use super::{Certificate, Interval, Kind, Plant};
-use bowden::control::{Adaptive, Form};
+use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
 /// The box theorem: peak of the error of the first-order form in sampled time.
@@ -87,11 +86,9 @@ impl<T: Real> PeakSampled<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
+        let case = Case::try_new(law, plant)?;
         let settings = law.settings();
-        let Form::FirstOrder { plant_gain, .. } = settings.form else {
-            return Err(Error::Inadmissible("the gains must be in first-order form"));
-        };
+        let [_, plant_gain] = first_order(settings)?;
         if plant.alpha.high > plant_gain {
             return Err(Error::Inadmissible(
                 "alpha <= plant_gain of the first-order form",
@@ -102,13 +99,9 @@ impl<T: Real> PeakSampled<T> {
         if stiffness <= T::zero() {
             return Err(Error::Inadmissible("k > 1/lambda²"));
         }
-        let g = loop_gain(law, plant)?;
-        let w = push(
-            law,
-            plant,
-            g,
-            plant.reference + plant.reference_rate / lambda,
-        );
+        let g = case.loop_gain()?;
+        let reference = plant.reference + plant.reference_rate / lambda;
+        let w = case.push(g, reference);
         let xi = plant.delta_rate + plant.weighted(|known| known.rate);
         let s = bounded((w + xi / lambda) / (g.low * stiffness))?;
         if settings.z_limit < s / lambda {
@@ -129,9 +122,6 @@ impl<T: Real> PeakSampled<T> {
     /// The bound 2·S as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::PeakSampled,
-            value: self.bound,
-        }
+        Certificate::new(Kind::PeakSampled, self.bound)
     }
 }

@@ -1,8 +1,8 @@
 //! Theorem 1 of Nguyen et al. (2018), with the paper's constants.
 
-use super::truth::{adapting, bounded, literal, stays, sum};
-use super::{Certificate, Interval, Kind, Plant};
-use bowden::control::{Adaptive, Leakage};
+use super::truth::{bounded, Adapting, Case};
+use super::{Certificate, Kind, Plant};
+use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
 /// The constants of Theorem 1, (34)-(38): phi, theta, delta and (1 + lambda)·delta.
@@ -55,41 +55,17 @@ impl<T: Real> Theorem1<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
+        let case = Case::try_new(law, plant)?.published()?;
         let settings = law.settings();
         let two = T::from_f64(2.0);
         let lambda = settings.lambda;
-        let mut theta = two * lambda;
-        let mut slowest = |rate: T| {
-            if rate < theta {
-                theta = rate;
-            }
-        };
-        slowest(two * settings.gain * lambda);
-        let leaking = [settings.beta, settings.delta];
-        for estimator in leaking.iter().chain(&settings.theta) {
-            // An estimate at the true value is no part of V, and a lower one is refused
-            // elsewhere.
-            if stays(estimator, settings.frozen) {
-                continue;
-            }
-            match estimator.leakage {
-                Leakage::Constant { rate } if rate > T::zero() => slowest(rate),
-                _ => {
-                    return Err(Error::Inadmissible(
-                        "the leakage of every estimate must be constant",
-                    ))
-                }
-            }
-        }
+        let theta = case.slowest((two * lambda).min(two * settings.gain * lambda))?;
         // Twice the residue is sigma·(p* - p0)²/(2·m).
-        let mut phi = two * sum(law, plant, |estimate| Ok(estimate.residue()))?;
-        let truth = Interval::exactly(plant.delta);
-        if let Some(delta) = adapting(&settings.delta, settings.frozen, truth)? {
+        let mut phi = two * case.sum(Adapting::residue)?;
+        if let Some(delta) = case.delta(plant.delta)? {
             phi += two * delta.residue();
         }
-        phi += settings.smooth_sign.residue::<T>() * settings.epsilon * lambda * plant.delta;
+        phi += case.smoothing() * plant.delta;
         let delta = bounded((two * phi / theta).sqrt())?;
         Ok(Self {
             phi,
@@ -102,9 +78,6 @@ impl<T: Real> Theorem1<T> {
     /// The bound (1 + lambda)·delta as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::Theorem1,
-            value: self.bound,
-        }
+        Certificate::new(Kind::Theorem1, self.bound)
     }
 }

@@ -1,8 +1,8 @@
 //! Theorem 1 with the best choice of the constants that its proof leaves free.
 
-use super::truth::{adapting, bounded, literal, range, stays, sum, Adapting};
-use super::{Certificate, Interval, Kind, Plant};
-use bowden::control::{Adaptive, Leakage};
+use super::truth::{bounded, Adapting, Case};
+use super::{Certificate, Kind, Plant};
+use bowden::control::Adaptive;
 use bowden::{Error, Real};
 
 /// Theorem 1's bound on limsup `|e|` with the best choice of its free constants.
@@ -47,17 +47,6 @@ pub struct Tightest<T> {
     pub terms: [T; 5],
 }
 
-/// The data of one trial choice.
-struct Problem<'a, T, const N: usize> {
-    law: &'a Adaptive<T, N>,
-    plant: &'a Plant<T, N>,
-    /// Adaptation of delta_hat, without its true value, which is the target.
-    delta: Option<Adapting<T>>,
-    targets: Interval<T>,
-    /// Smallest leakage of an estimate in V \[1/s\].
-    slowest: T,
-}
-
 /// Number of rounds in each search. Each round reduces the interval to two thirds.
 const NARROWINGS: u32 = 36;
 
@@ -79,17 +68,15 @@ impl<T: Real> Tightest<T> {
         law: &Adaptive<T, N>,
         plant: &Plant<T, N>,
     ) -> Result<Self, Error> {
-        plant.check()?;
-        literal(law)?;
-        let problem = Problem::try_new(law, plant)?;
-        let zero = T::zero();
+        let case = Case::try_new(law, plant)?.published()?;
+        let slowest = case.slowest(law.settings().lambda)?;
         // theta as a share of its maximum, c by its logarithm.
-        let theta = |share: T| problem.slowest * T::from_f64(2.0) * share;
+        let theta = |share: T| slowest * T::from_f64(2.0) * share;
         let best_weight = |theta: T| -> Result<Self, Error> {
             let highest = T::from_f64(16.0) * law.settings().gain * law.settings().lambda;
             let top = (highest * law.settings().lambda + T::from_f64(2.0)).ln();
-            let at = |log: T| problem.at(theta, log.exp());
-            at(narrowed(zero, top, |log| Ok(at(log)?.bound))?)
+            let of = |log: T| at(&case, theta, log.exp());
+            of(narrowed(T::zero(), top, |log| Ok(of(log)?.bound))?)
         };
         let share = narrowed(T::from_f64(1e-6), T::one() - T::from_f64(1e-6), |share| {
             Ok(best_weight(theta(share))?.bound)
@@ -102,123 +89,68 @@ impl<T: Real> Tightest<T> {
     /// The name of the largest term of phi, and its fraction of phi.
     #[must_use]
     pub fn dominant_term(&self) -> (&'static str, T) {
-        let mut sum = T::zero();
-        let mut greatest = (Self::NAMES[0], T::zero());
-        for (name, term) in Self::NAMES.iter().zip(self.terms) {
-            sum += term;
-            if term > greatest.1 {
-                greatest = (name, term);
-            }
-        }
+        let sum = self.terms.iter().fold(T::zero(), |sum, term| sum + *term);
+        let first = (Self::NAMES[0], T::zero());
+        let terms = Self::NAMES.into_iter().zip(self.terms);
+        let greatest = terms.fold(first, |most, own| if own.1 > most.1 { own } else { most });
         (greatest.0, greatest.1 / sum)
     }
 
     /// The bound as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<T> {
-        Certificate {
-            kind: Kind::Tightest,
-            value: self.bound,
-        }
+        Certificate::new(Kind::Tightest, self.bound)
     }
 }
 
-impl<'a, T: Real, const N: usize> Problem<'a, T, N> {
-    fn try_new(law: &'a Adaptive<T, N>, plant: &'a Plant<T, N>) -> Result<Self, Error> {
-        let settings = law.settings();
-        let mut slowest = settings.lambda;
-        for estimator in [settings.beta, settings.delta]
-            .iter()
-            .chain(&settings.theta)
-        {
-            if stays(estimator, settings.frozen) {
-                continue;
-            }
-            match estimator.leakage {
-                Leakage::Constant { rate } if rate > T::zero() => {
-                    slowest = if rate < slowest { rate } else { slowest };
-                }
-                _ => {
-                    return Err(Error::Inadmissible(
-                        "the leakage of every estimate must be constant",
-                    ))
-                }
-            }
-        }
-        let top = Interval::exactly(plant.delta);
-        let delta = adapting(&settings.delta, settings.frozen, top)?;
-        let low = range(&settings.delta, settings.frozen).low;
-        let low = if low > T::zero() { low } else { T::zero() };
-        let targets = match delta {
-            Some(_) => Interval {
-                low,
-                high: plant.delta,
-            },
-            None => top,
-        };
-        Ok(Self {
-            law,
-            plant,
-            delta,
-            targets,
-            slowest,
-        })
-    }
-
-    /// The bound at one theta and one c, with the best target.
-    fn at(&self, theta: T, weight: T) -> Result<Tightest<T>, Error> {
-        let settings = self.law.settings();
-        let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
-        let half = theta / two;
-        let leaked = |estimate: &Adapting<T>| {
-            let sigma = estimate.leakage.rate();
-            let share = sigma * sigma / (four * estimate.gain * (sigma - half));
-            share * estimate.distance_squared()
-        };
-        let all = sum(self.law, self.plant, |estimate| Ok(leaked(estimate)))?;
-        let thetas = settings.theta.iter().zip(&self.plant.regressors);
-        let mut of_theta = T::zero();
-        for (theta, known) in thetas {
-            if let Some(theta) = adapting(theta, settings.frozen, known.theta)? {
-                of_theta += leaked(&theta);
-            }
-        }
-        let coupling = weight - T::one();
-        let coupled = coupling * coupling / (four * weight * (lambda - half));
-        let stiffness = settings.gain * lambda - half - coupled;
-        if stiffness <= T::zero() {
-            return Ok(Tightest {
-                bound: T::infinity(),
-                theta,
-                weight,
-                target: self.targets.high,
-                terms: [T::zero(); 5],
-            });
-        }
-        let smooth = settings.smooth_sign.residue::<T>() * settings.epsilon * lambda;
-        let aimed = |target: T| {
-            let truth = Interval::exactly(target);
-            let delta = self.delta.map(|delta| Adapting { truth, ..delta });
-            let left = lambda * (self.plant.delta - target);
-            [
-                delta.map_or(T::zero(), |delta| leaked(&delta)),
-                smooth * target,
-                left * left / (four * stiffness),
-            ]
-        };
-        let total = |target: T| Ok(aimed(target).iter().fold(T::zero(), |sum, x| sum + *x));
-        let target = narrowed(self.targets.low, self.targets.high, total)?;
-        let [of_delta, smoothing, disturbance] = aimed(target);
-        let phi = all + of_delta + smoothing + disturbance;
-        let seen = T::one() + lambda * lambda / weight;
-        Ok(Tightest {
-            bound: (seen * two * phi / theta).sqrt(),
-            theta,
-            weight,
-            target,
-            terms: [all - of_theta, of_delta, of_theta, smoothing, disturbance],
-        })
-    }
+/// The bound at one theta and one c, with the best target.
+fn at<T: Real, const N: usize>(
+    case: &Case<'_, T, N>,
+    theta: T,
+    weight: T,
+) -> Result<Tightest<T>, Error> {
+    let Case { settings, plant } = case;
+    let delta = case.delta(plant.delta)?;
+    let lowest = delta.map_or(plant.delta, |_| {
+        case.range(&settings.delta).low.max(T::zero())
+    });
+    let (two, four, lambda) = (T::from_f64(2.0), T::from_f64(4.0), settings.lambda);
+    let half = theta / two;
+    let leaked = |estimate: &Adapting<T>| {
+        let sigma = estimate.estimator.leakage.rate();
+        let share = sigma * sigma / (four * estimate.estimator.gain * (sigma - half));
+        share * estimate.distance_squared()
+    };
+    let all = case.sum(leaked)?;
+    let of_theta = case.add_thetas(T::zero(), leaked)?;
+    let coupling = weight - T::one();
+    let coupled = coupling * coupling / (four * weight * (lambda - half));
+    let stiffness = settings.gain * lambda - half - coupled;
+    let smooth = case.smoothing();
+    let aimed = |target: T| {
+        let left = lambda * (plant.delta - target);
+        [
+            delta.map_or(T::zero(), |delta| leaked(&delta.aimed_at(target))),
+            smooth * target,
+            left * left / (four * stiffness),
+        ]
+    };
+    let total = |target: T| Ok(aimed(target).iter().fold(T::zero(), |sum, x| sum + *x));
+    let target = narrowed(lowest, plant.delta, total)?;
+    let [of_delta, smoothing, disturbance] = aimed(target);
+    let phi = all + of_delta + smoothing + disturbance;
+    let seen = T::one() + lambda * lambda / weight;
+    let bound = match stiffness <= T::zero() {
+        true => T::infinity(),
+        false => (seen * two * phi / theta).sqrt(),
+    };
+    Ok(Tightest {
+        bound,
+        theta,
+        weight,
+        target,
+        terms: [all - of_theta, of_delta, of_theta, smoothing, disturbance],
+    })
 }
 
 /// The argument at which a function that falls and then rises is smallest. Any argument gives a

@@ -1,8 +1,8 @@
 //! The factor H of a sinusoid over one cycle, for regions of frequencies, cycle times and plants.
 
 use super::alone::Loop;
-use crate::plants::Plants;
-use crate::span::{Plane, Span};
+use crate::interval::{Plane, Span};
+use crate::PlantRange;
 
 /// Sum over all images of `1/|x + pi·k|³` for x from 0 to pi/2: `(2/pi)³` for the nearest image and
 /// 0.053 for all others.
@@ -28,7 +28,7 @@ pub(super) struct Cycle<'a> {
 pub(super) struct Boxed {
     pub(super) frequency: Span,
     pub(super) cell: Span,
-    pub(super) plants: Plants,
+    pub(super) plants: PlantRange,
 }
 
 impl Cycle<'_> {
@@ -38,39 +38,34 @@ impl Cycle<'_> {
     /// itself were enclosed, the proof would need many more regions.)
     pub(super) fn is_small(&self, all: &Boxed) -> bool {
         let w = all.frequency;
-        let Some(x) = (Span::at(0.5) * w * all.cell).meets(self.half_phases) else {
+        let Some(x) = (Span::exactly(0.5) * w * all.cell).meets(self.half_phases) else {
             return true;
         };
         let sine = sine(x);
         let learned = self.learned(x);
-        let images = Span::at(IMAGES * self.images) * sine.square() * sine;
-        let passed = Span::at(self.passed(x));
-        let left = Span::at(self.factor) * passed.recip() - Span::at(images.high.max(0.0));
+        let images = Span::exactly(IMAGES * self.images) * sine.square() * sine;
+        let passed = Span::exactly(self.passed(x));
+        let left =
+            Span::exactly(self.factor) * passed.recip() - Span::exactly(images.high.max(0.0));
         if left.low < 0.0 || left.low.is_nan() {
             return false;
         }
         let kept = self.kept;
-        let square = kept.square() - Span::at(left.low).square();
-        let around = self.around(w, &all.plants) * early(Span::at(-2.0 * self.lead) * x);
+        let square = kept.square() - Span::exactly(left.low).square();
+        let around = self.around(w, &all.plants) * early(Span::exactly(-2.0 * self.lead) * x);
         let of_size = square * around.im.square();
         [learned.low, learned.high].iter().all(|a| {
-            let a = Span::at(*a);
-            let along = |p: Span| square * p.square() - Span::at(2.0) * kept * a * p;
-            let ends = [around.re.low, around.re.high].map(|p| along(Span::at(p)).high);
+            let a = Span::exactly(*a);
+            let along = |p: Span| square * p.square() - Span::exactly(2.0) * kept * a * p;
+            let ends = [around.re.low, around.re.high].map(|p| along(Span::exactly(p)).high);
+            let ends = ends[0].max(ends[1]);
             // Where it falls on both sides, the highest value lies between.
-            let top = (kept * a).square() * (Span::at(-1.0) * square).recip();
-            let between = if square.low < 0.0 {
-                top.high
-            } else {
-                f64::NEG_INFINITY
-            };
+            let top = (kept * a).square() * (Span::exactly(-1.0) * square).recip();
             let peak = kept * a * square.recip();
             let outside = around.re.high < peak.low || around.re.low > peak.high;
-            let most = match outside {
-                true => ends[0].max(ends[1]),
-                false => ends[0].max(ends[1]).max(between),
-            };
-            (Span::at(most) + of_size + a.square()).high <= 0.0
+            let between = square.low < 0.0 && !outside;
+            let most = if between { ends.max(top.high) } else { ends };
+            (Span::exactly(most) + of_size + a.square()).high <= 0.0
         })
     }
 
@@ -79,77 +74,74 @@ impl Cycle<'_> {
     /// `(kept² − (1 − m)²)·|W|² + a² − 2·kept·a·Re(W)` is negative. Here Re(W) is finite,
     /// `Re(e^(−jw·L)·(1/P~ + k_p)) − k_i·sin(w·L)/w`, and so is `|w·W|`.
     pub(super) fn is_below_one(&self, all: &Boxed) -> bool {
-        let (w, one) = (all.frequency, Span::at(1.0));
-        let x = Span::at(0.5) * w * all.cell;
-        let (lead, k_i) = (Span::at(self.lead) * all.cell, Span::at(self.closed.k_i));
+        let (w, one) = (all.frequency, Span::exactly(1.0));
+        let x = Span::exactly(0.5) * w * all.cell;
+        let (lead, k_i) = (
+            Span::exactly(self.lead) * all.cell,
+            Span::exactly(self.closed.k_i),
+        );
         let mut open = self.open(w, &all.plants);
-        open.re = open.re + Span::at(self.closed.k_p);
+        open.re = open.re + Span::exactly(self.closed.k_p);
         let re = (open * Plane::late(lead * w)).re - k_i * lead * sinc(lead * w);
         let size = (w * open.re).square() + (w * open.im - k_i).square();
-        let images = Span::at(IMAGES * self.images);
+        let images = Span::exactly(IMAGES * self.images);
         let most = images * x.square() * x;
         if most.high.is_nan() || most.high > 1.0 {
             return false;
         }
         let kept = self.kept;
-        let square = kept.square() - (one - Span::at(most.high)).square();
+        let square = kept.square() - (one - Span::exactly(most.high)).square();
         let first = if square.high < 0.0 {
-            Span::at(square.high) * Span::at(size.low) * Span::at(w.high).square().recip()
+            Span::exactly(square.high)
+                * Span::exactly(size.low)
+                * Span::exactly(w.high).square().recip()
         } else {
             // At most 2·m/w², of which w³ is in m.
-            let half = Span::at(0.5) * all.cell;
-            Span::at(2.0) * images * half.square() * half * w * size
+            let half = Span::exactly(0.5) * all.cell;
+            Span::exactly(2.0) * images * half.square() * half * w * size
         };
         let learned = self.learned(x);
         [learned.low, learned.high].iter().all(|a| {
-            let a = Span::at(*a);
-            (first + a * (a - Span::at(2.0) * kept * re)).high < 0.0
+            let a = Span::exactly(*a);
+            (first + a * (a - Span::exactly(2.0) * kept * re)).high < 0.0
         })
     }
 
     /// `gain·S³`.
     fn learned(&self, x: Span) -> Span {
         let seen = sinc(x);
-        Span::at(self.gain) * seen * seen.square()
+        Span::exactly(self.gain) * seen * seen.square()
     }
 
     /// Upper bound on Q. `sin(M·x)/(M·sin(x))` is at most 1 and decreases up to its first zero at
     /// `x = pi/M`.
     fn passed(&self, x: Span) -> f64 {
         let first = self.width * x.high < core::f64::consts::PI;
-        let x = if first { Span::at(x.low) } else { x };
-        let share = sine(Span::at(self.width) * x) * (Span::at(self.width) * sine(x)).recip();
+        let x = if first { Span::exactly(x.low) } else { x };
+        let share =
+            sine(Span::exactly(self.width) * x) * (Span::exactly(self.width) * sine(x)).recip();
         share.square().high.clamp(f64::MIN_POSITIVE, 1.0)
     }
 
     /// `1/P~ = (D~/f)·e^(jw·theta)/(alpha·(1 + jw·c/K))`.
-    fn open(&self, w: Span, plants: &Plants) -> Plane {
-        let one = Span::at(1.0);
+    fn open(&self, w: Span, plants: &PlantRange) -> Plane {
+        let one = Span::exactly(1.0);
         let (slow, y) = (plants.natural_frequency.recip(), plants.joint * w);
         let share = plants.slope.recip();
-        let plant = Plane {
-            re: share - (w * slow).square(),
-            im: w * (Span::at(2.0) * plants.damping_ratio * slow + plants.joint * share),
-        };
+        let rate = Span::exactly(2.0) * plants.damping_ratio * slow + plants.joint * share;
+        let plant = Plane::new(share - (w * slow).square(), w * rate);
         let below = (one + y.square()).recip();
-        let joint = Plane {
-            re: below,
-            im: Span::at(-1.0) * y * below,
-        };
+        let joint = Plane::new(below, Span::exactly(-1.0) * y * below);
         (plant * joint * early(plants.latency * w)).times(plants.gain.recip())
     }
 
     /// `1/G = 1/P~ + k_p + k_i/(jw)`.
-    fn around(&self, w: Span, plants: &Plants) -> Plane {
+    fn around(&self, w: Span, plants: &PlantRange) -> Plane {
         let integral = match self.closed.k_i == 0.0 {
-            true => Span::at(0.0),
-            false => Span::at(-self.closed.k_i) * w.recip(),
+            true => Span::exactly(0.0),
+            false => Span::exactly(-self.closed.k_i) * w.recip(),
         };
-        self.open(w, plants)
-            + Plane {
-                re: Span::at(self.closed.k_p),
-                im: integral,
-            }
+        self.open(w, plants) + Plane::new(Span::exactly(self.closed.k_p), integral)
     }
 
     /// The two halves of the region, along the parameter that changes 1/G most.
@@ -165,8 +157,8 @@ impl Cycle<'_> {
         ];
         let middle = plants.middle();
         let length = |of: Plane| libm::hypot(of.re.middle(), of.im.middle());
-        let open = length(self.open(Span::at(w), &middle));
-        let size = length(self.around(Span::at(w), &middle));
+        let open = length(self.open(Span::exactly(w), &middle));
+        let size = length(self.around(Span::exactly(w), &middle));
         let integral = self.closed.k_i / w;
         let unit = 1.0 / (gain * libm::sqrt(1.0 + joint * joint));
         let rate = 2.0 * damping * slow + joint / slope;
@@ -201,7 +193,7 @@ impl Cycle<'_> {
 
 /// e^(j·phase).
 fn early(phase: Span) -> Plane {
-    Plane::late(Span::at(-1.0) * phase)
+    Plane::late(Span::exactly(-1.0) * phase)
 }
 
 fn sine(phase: Span) -> Span {
@@ -213,11 +205,13 @@ fn sinc(x: Span) -> Span {
     if x.low > 0.1 {
         return sine(x) * x.recip();
     }
-    let sixth = Span::at(6.0).recip();
-    let (first, last) = (Span::at(x.low.max(0.0)), Span::at(x.high));
-    let above = first.square() * sixth * (first.square() * Span::at(20.0).recip() - Span::at(1.0));
+    let sixth = Span::exactly(6.0).recip();
+    let (first, last) = (Span::exactly(x.low.max(0.0)), Span::exactly(x.high));
+    let above = first.square()
+        * sixth
+        * (first.square() * Span::exactly(20.0).recip() - Span::exactly(1.0));
     Span {
-        low: (Span::at(1.0) - last.square() * sixth).low,
-        high: (Span::at(1.0) + above).high.min(1.0),
+        low: (Span::exactly(1.0) - last.square() * sixth).low,
+        high: (Span::exactly(1.0) + above).high.min(1.0),
     }
 }

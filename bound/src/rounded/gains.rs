@@ -1,16 +1,70 @@
 //! A law and a plant as exact numbers.
 
-use super::estimates::Adapts;
 use super::roundings::Word;
 use crate::checked::{above_zero, finite};
 use crate::dyadic::Enclosure;
-use crate::truth::range;
+use crate::truth::{first_order, range};
 use crate::{Interval, Plant};
-use bowden::control::{AdaptiveSettings, Form};
+use bowden::control::{AdaptiveSettings, Estimator, Leakage};
 use bowden::{Error, Real};
 
 /// Maximum number of regressors in a law that is examined.
 pub(super) const MOST: usize = 16;
+
+/// Upper bounds on the numbers in the update of an estimate, (24)-(26).
+#[derive(Clone, Copy)]
+pub(super) struct Adapts {
+    gain: Enclosure,
+    /// \[1/s\]
+    leakage: Enclosure,
+    /// Largest distance from the prior \[unit of the estimate\].
+    distance: Enclosure,
+    /// The distance divided by the bound of a switching leakage.
+    bounds: Enclosure,
+    /// Largest magnitude \[unit of the estimate\].
+    most: Enclosure,
+}
+
+impl Adapts {
+    /// # Errors
+    /// [`Error::NonFinite`] or [`Error::OutOfRange`] with `name`, if no number can be stated.
+    fn try_new<T: Real>(
+        estimator: &Estimator<T>,
+        frozen: bool,
+        name: &'static str,
+    ) -> Result<Self, Error> {
+        let number = |x: T| Ok::<_, Error>(Enclosure::of(finite(x, name)?));
+        let prior = number(estimator.prior)?;
+        let ends = ends(range(estimator, frozen), name)?;
+        let farthest = |from: Enclosure| (ends[0] - from).abs().max((ends[1] - from).abs());
+        let distance = farthest(prior);
+        let bounds = match estimator.leakage {
+            Leakage::Switching { bound, .. } if bound > T::ZERO => distance / number(bound)?,
+            Leakage::Switching { .. } => return Err(Error::OutOfRange(name)),
+            Leakage::None | Leakage::Constant { .. } => Enclosure::ZERO,
+        };
+        Ok(Self {
+            gain: number(estimator.gain)?.abs(),
+            leakage: number(estimator.leakage.rate())?.abs(),
+            distance,
+            bounds,
+            most: farthest(Enclosure::ZERO),
+        })
+    }
+
+    /// A sum of which every number of the update is a part, or a part less a factor below one.
+    ///
+    /// The lines follow `Estimator::update` with an input of at most `drive`, over `step`
+    /// \[s\]. They are the distance, the rate of the leakage, the input and leakage terms,
+    /// their share in a step, and the sum.
+    pub(super) fn numbers(&self, drive: Enclosure, step: Enclosure) -> Enclosure {
+        let one = Enclosure::ONE;
+        let rate = self.gain * drive + self.leakage * self.distance;
+        let leakage = self.leakage * (one + step);
+        let from = self.distance + self.bounds + self.most;
+        one + from + leakage + drive + rate * (one + step)
+    }
+}
 
 /// One regressor.
 #[derive(Clone, Copy)]
@@ -79,10 +133,8 @@ impl Gains {
         let alpha = [plant.alpha.low, plant.alpha.high].map(Enclosure::of);
         let g = [alpha[0] * beta[0], alpha[1] * beta[1]];
         let terms = terms(settings, plant, g)?;
-        let (lambda, reference) = (
-            Enclosure::of(settings.lambda),
-            Enclosure::of(plant.reference),
-        );
+        let lambda = Enclosure::of(settings.lambda);
+        let reference = Enclosure::of(plant.reference);
         let reference_rate = Enclosure::of(plant.reference_rate);
         let off = (Enclosure::ONE - g[0]).abs();
         let off = off.max((g[1] - Enclosure::ONE).abs());
@@ -137,9 +189,7 @@ fn word<T: Real>() -> Word {
 
 /// The step \[s\] of settings whose single numbers make sense.
 fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<T, Error> {
-    let Form::FirstOrder { step, .. } = settings.form else {
-        return Err(Error::Inadmissible("the gains must be in first-order form"));
-    };
+    let [step, _] = first_order(settings)?;
     above_zero(step, "step")?;
     above_zero(settings.gain, "gain")?;
     above_zero(settings.lambda, "lambda")?;
@@ -155,15 +205,15 @@ fn usable<T: Real, const N: usize>(settings: &AdaptiveSettings<T, N>) -> Result<
 fn boxes<T: Real, const N: usize>(
     settings: &AdaptiveSettings<T, N>,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), Error> {
-    let beta = range(&settings.beta, settings.frozen);
-    if ends(beta, "beta.low")?[0].is_at_most(Enclosure::ZERO) {
+    let beta = ends(range(&settings.beta, settings.frozen), "beta.low")?;
+    if beta[0].is_at_most(Enclosure::ZERO) {
         return Err(Error::Inadmissible("beta.low > 0"));
     }
-    let delta = range(&settings.delta, settings.frozen);
-    if !Enclosure::ZERO.is_at_most(ends(delta, "delta.low")?[0]) {
+    let delta = ends(range(&settings.delta, settings.frozen), "delta.low")?;
+    if !Enclosure::ZERO.is_at_most(delta[0]) {
         return Err(Error::Inadmissible("delta.low >= 0"));
     }
-    Ok((ends(beta, "beta.low")?, ends(delta, "delta.low")?))
+    Ok((beta, delta))
 }
 
 fn ends<T: Real>(interval: Interval<T>, name: &'static str) -> Result<[Enclosure; 2], Error> {

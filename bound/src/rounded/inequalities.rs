@@ -84,8 +84,8 @@ impl Inequality {
     fn new(name: Named, left: Enclosure, right: Enclosure) -> Self {
         Self {
             name,
-            left: left.high(),
-            right: right.low(),
+            left: left.high,
+            right: right.low,
         }
     }
 
@@ -110,7 +110,7 @@ impl Gains {
             return Enclosure::ONE;
         }
         let s = (self.w + self.xi / self.lambda) / (self.g[0] * stiffness);
-        Enclosure::exactly(s.high().shortened(20))
+        Enclosure::exactly(s.high.shortened(20))
     }
 
     /// The command that a box needs \[command unit\].
@@ -126,7 +126,7 @@ impl Gains {
             let added = roundings(self, s, z, self.needed(s, z)).z;
             z = (s + added * above / self.step) * above / self.lambda;
         }
-        Enclosure::exactly(z.high().shortened(BITS_OF_Z))
+        Enclosure::exactly(z.high.shortened(BITS_OF_Z))
     }
 }
 

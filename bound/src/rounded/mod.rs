@@ -1,6 +1,5 @@
 //! The box theorem for the shipped step, with all rounding errors.
 
-mod estimates;
 mod gains;
 mod inequalities;
 mod roundings;
@@ -93,7 +92,7 @@ pub struct PeakRounded {
 }
 
 /// Number of doublings and halvings in the search for S.
-const DOUBLINGS: u32 = 20;
+const DOUBLINGS: i32 = 20;
 const HALVINGS: u32 = 80;
 
 impl PeakRounded {
@@ -127,15 +126,10 @@ impl PeakRounded {
         plant: &Plant<f64, N>,
     ) -> Result<Self, Error> {
         let gains = Gains::try_new(settings, plant)?;
-        let mut high = Enclosure::ONE;
-        let mut doublings = 0;
-        while !Self::at(&gains, high).grows_into() {
-            high = high + high;
-            doublings += 1;
-            if doublings > DOUBLINGS {
-                return Ok(Self::at(&gains, gains.exact_box()));
-            }
-        }
+        let mut doubled = (0..=DOUBLINGS).map(Enclosure::power);
+        let Some(mut high) = doubled.find(|s| Self::at(&gains, *s).grows_into()) else {
+            return Ok(Self::at(&gains, gains.exact_box()));
+        };
         let mut low = Enclosure::ZERO;
         for _ in 0..HALVINGS {
             if (high - low).is_at_most(high * Enclosure::power(-14)) {
@@ -181,17 +175,14 @@ impl PeakRounded {
     /// The bound S + lambda·Z \[N·m\] on `|e|` at every sample, never rounded down.
     #[must_use]
     pub fn bound(&self) -> f64 {
-        let nearest = self.error.high().as_f64();
+        let nearest = self.error.high.as_f64();
         nearest + libm::fabs(nearest) * f64::EPSILON
     }
 
     /// The bound as a certificate.
     #[must_use]
     pub fn certificate(&self) -> Certificate<f64> {
-        Certificate {
-            kind: Kind::PeakRounded,
-            value: self.bound(),
-        }
+        Certificate::new(Kind::PeakRounded, self.bound())
     }
 
     /// Whether all inequalities hold that a larger S can satisfy.

@@ -78,7 +78,7 @@ fn attack_in<T: Real, const N: usize>(
     steps: u32,
     proof: &PeakRounded,
 ) -> Reached {
-    let (s_most, z_most) = (proof.s.high().as_f64(), proof.z.high().as_f64());
+    let (s_most, z_most) = (proof.s.high.as_f64(), proof.z.high.as_f64());
     let law = Adaptive::try_new(settings).unwrap();
     let [low, high] = corners(settings).map(|corner| Adaptive::try_new(corner).unwrap());
     let Form::FirstOrder { step: h, .. } = settings.form else {
@@ -116,7 +116,7 @@ fn attack_in<T: Real, const N: usize>(
         // The disturbance that this y is of, with what y was rounded by.
         let d = play.alpha * state.command().as_f64() - known - y.as_f64();
         assert!(d.abs() <= plant.delta, "{d}");
-        let (load, rate) = (d + known, proof.xi.high().as_f64());
+        let (load, rate) = (d + known, proof.xi.high.as_f64());
         let moved = last_load.map_or(0.0, |last| (load - last).abs());
         assert!(moved <= dt * rate + 1e-14, "{n}");
         last_load = Some(load);

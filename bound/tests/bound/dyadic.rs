@@ -21,11 +21,11 @@ fn rational(x: f64) -> BigRational {
 
 /// Whether an interval holds a number.
 fn holds(interval: Enclosure, number: &BigRational) -> bool {
-    exact(interval.low()) <= *number && *number <= exact(interval.high())
+    exact(interval.low) <= *number && *number <= exact(interval.high)
 }
 
 fn is_narrow(interval: Enclosure, number: &BigRational) -> bool {
-    let width = exact(interval.high()) - exact(interval.low());
+    let width = exact(interval.high) - exact(interval.low);
     let size = number.clone().max(-number.clone());
     width * BigInt::from(1_u64 << 58) <= size
 }
@@ -56,8 +56,8 @@ proptest! {
         prop_assert_eq!(Dyadic::of(x).cmp(&Dyadic::of(y)), rational(x).cmp(&rational(y)));
         let (a, b) = (Enclosure::of(x), Enclosure::of(y));
         prop_assert_eq!(a.is_at_most(b), x <= y);
-        prop_assert_eq!(exact(a.max(b).high()), rational(x.max(y)));
-        prop_assert_eq!(exact(a.abs().low()), rational(x.abs()));
+        prop_assert_eq!(exact(a.max(b).high), rational(x.max(y)));
+        prop_assert_eq!(exact(a.abs().low), rational(x.abs()));
     }
 
     #[test]
@@ -100,7 +100,7 @@ fn a_quotient_by_what_may_be_zero_is_every_number() {
     let third = one / Enclosure::of(3.0);
     for divisor in [zero, third - third] {
         let quotient = one / divisor;
-        assert!(quotient.low() < Dyadic::of(f64::MIN) && quotient.high() > Dyadic::of(f64::MAX));
+        assert!(quotient.low < Dyadic::of(f64::MIN) && quotient.high > Dyadic::of(f64::MAX));
         assert!(!quotient.is_at_most(Enclosure::of(f64::MAX)));
     }
 }
@@ -118,11 +118,11 @@ fn numbers_that_differ_in_their_last_bit_alone_are_told_apart() {
     for exponent in 1..=61 {
         let half = Enclosure::of(2.0_f64.powi(exponent - 1));
         let (power, before) = (half + half, half - one + half);
-        assert_eq!(before.low(), before.high(), "2^{exponent} - 1 is exact");
-        assert!(before.high() < power.low(), "2^{exponent}");
+        assert_eq!(before.low, before.high, "2^{exponent} - 1 is exact");
+        assert!(before.high < power.low, "2^{exponent}");
         assert!(!power.is_at_most(before), "2^{exponent}");
         let (below, above) = (Enclosure::of(0.0) - power, Enclosure::of(0.0) - before);
-        assert!(below.high() < above.low(), "-2^{exponent}");
+        assert!(below.high < above.low, "-2^{exponent}");
     }
     // Far apart, of either sign, and zero.
     let (huge, tiny) = (Dyadic::of(1e300), Dyadic::of(1e-300));

@@ -85,7 +85,7 @@ fn the_least_box_is_the_one_that_was_found_in_exact_fractions() {
         (proved(own::<f32>(), &own_plant()), 1.611_816),
         (proved(own::<f64>(), &own_plant()), 1.611_572),
     ] {
-        let least = found.s.high().as_f64();
+        let least = found.s.high.as_f64();
         println!("S = {least}, found before: {s}");
         near(least / s, 1.0, 3e-4);
         // |e| <= 2·S, up to the room that z needs.
@@ -99,8 +99,8 @@ fn rounding_costs_little_and_never_nothing() {
     let plant = own_plant();
     let law = Adaptive::try_new(own::<f64>()).unwrap();
     let exact = PeakSampled::try_new(&law, &plant).unwrap().s;
-    let double = proved(own::<f64>(), &plant).s.high().as_f64() / exact;
-    let single = proved(own::<f32>(), &plant).s.high().as_f64() / exact;
+    let double = proved(own::<f64>(), &plant).s.high.as_f64() / exact;
+    let single = proved(own::<f32>(), &plant).s.high.as_f64() / exact;
     // The search is to 2^-14.
     assert!(1.0 < double && double < 1.0 + 1e-4, "{double}");
     assert!(double < single && single < 1.0 + 5e-4, "{single}");
@@ -237,7 +237,7 @@ fn a_certificate_that_cannot_be_stated_names_the_reason() {
 
 #[test]
 fn a_wider_world_needs_a_wider_box() {
-    let least = |plant: &Plant<f64, 2>| proved(own::<f32>(), plant).s.high();
+    let least = |plant: &Plant<f64, 2>| proved(own::<f32>(), plant).s.high;
     let wider: [fn(&mut Plant<f64, 2>); 5] = [
         |p| p.delta = 7.2,
         |p| p.delta_rate = 25.0,

@@ -353,7 +353,7 @@ fn proof<T: Real, const N: usize>(
 ) -> Proof {
     let float = |x: T| Dyadic::of(x).to_string();
     let real = |x: f64| Dyadic::of(x).to_string();
-    let number = |x: bowden_bound::Enclosure| Number::from(x.high());
+    let number = |x: bowden_bound::Enclosure| Number::from(x.high);
     let range = |estimator: &Estimator<T>| [float(estimator.low), float(estimator.high)];
     let pairs = settings.theta.iter().zip(&plant.regressors);
     let rounded = &examined.roundings;
@@ -395,7 +395,7 @@ fn proof<T: Real, const N: usize>(
         error: number(examined.error),
         w: number(examined.w),
         xi: number(examined.xi),
-        g: [examined.g[0].low().into(), examined.g[1].high().into()],
+        g: [examined.g[0].low.into(), examined.g[1].high.into()],
         roundings: Rounded {
             s: number(rounded.s),
             command: number(rounded.command),

@@ -53,13 +53,13 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
     words.put("box", BOX.trim_end());
     words.put("comp", comp);
     for (name, number) in numbers.gains.iter().chain(&numbers.bounds) {
-        words.put(name, fraction(number.high())?);
+        words.put(name, fraction(number.high)?);
     }
     let range = |of: &str, low: Enclosure, high: Enclosure| -> Result<String, String> {
         Ok(format!(
             "{} <= {of} <= {}",
-            fraction(low.low())?,
-            fraction(high.high())?
+            fraction(low.low)?,
+            fraction(high.high)?
         ))
     };
     let bound = |name: &str| numbers.bounds.get(name).copied().unwrap_or(zero());
@@ -90,7 +90,7 @@ pub fn coq(proof: &Proof) -> Result<String, String> {
         "(alpha * beta - 1) * (r + (rp - r) / (h * lam)) + (alpha * beta * ({exact}) - X) - D"
     );
     words.put("Hw", both(&w, "W")?);
-    let xi = fraction(bound("Xi").high())?;
+    let xi = fraction(bound("Xi").high)?;
     words.put(
         "Hxi",
         format!("- (h * {xi}) <= (D' - D) + (X' - X) <= h * {xi}"),
@@ -143,7 +143,7 @@ pub fn gappa(proof: &Proof) -> Result<String, String> {
     words.put("comp", format!("comp rnd= {products};"));
     for (place, name) in [("h", "h"), ("lambda", "lambda"), ("k", "k")] {
         let gain = numbers.gains.get(name).copied().unwrap_or(zero());
-        words.put(place, binary(gain.high()));
+        words.put(place, binary(gain.high));
     }
     for (place, name) in [
         ("Es", "nEs"),
@@ -155,14 +155,14 @@ pub fn gappa(proof: &Proof) -> Result<String, String> {
         ("Esumz", "cz"),
     ] {
         let bound = numbers.bounds.get(name).copied().unwrap_or(zero());
-        words.put(place, binary(bound.high()));
+        words.put(place, binary(bound.high));
     }
     let within = |r: &Range| {
         format!(
             "{} in [{},{}]",
             r.of,
-            binary(r.low.low()),
-            binary(r.high.high())
+            binary(r.low.low),
+            binary(r.high.high)
         )
     };
     let ranges: Vec<String> = numbers.ranges.iter().map(within).collect();
@@ -234,7 +234,7 @@ fn zero() -> Enclosure {
 
 /// Rounded up to few bits.
 fn up(x: Enclosure, bits: u32) -> Enclosure {
-    Enclosure::exactly(x.high().shortened(bits))
+    Enclosure::exactly(x.high.shortened(bits))
 }
 
 /// `mantissa*2^exponent` of a float.
@@ -333,8 +333,8 @@ impl Given {
             ("k", self.k),
             ("alow", self.alpha[0]),
             ("ahigh", self.alpha[1]),
-            ("gmin", Enclosure::exactly(low.low())),
-            ("gmax", Enclosure::exactly(high.high())),
+            ("gmin", Enclosure::exactly(low.low)),
+            ("gmax", Enclosure::exactly(high.high)),
             ("dmax", self.delta),
             ("q", up(steepest / self.epsilon, LONG)),
         ])
@@ -376,7 +376,7 @@ impl Given {
             ("W", least(proof.w.value)),
             ("Xi", least(proof.xi.value)),
             ("ref", self.reference),
-            ("load", Enclosure::exactly(self.load.high())),
+            ("load", Enclosure::exactly(self.load.high)),
             ("sm", up(s + nes, MIDDLE)),
             ("change", up(self.step * self.rate, SHORT)),
             ("seen", up(error, SHORT)),

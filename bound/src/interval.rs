@@ -1,16 +1,83 @@
 //! Intervals and complex boxes, rounded outwards.
 
+use crate::checked::{above_zero, finite};
+use bowden::{Error, Real};
 use core::ops::{Add, Mul, Sub};
 
 /// An interval of numbers.
-#[derive(Clone, Copy)]
-pub(super) struct Span {
-    pub(super) low: f64,
-    pub(super) high: f64,
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Interval<T> {
+    /// Lower end \[unit of the numbers\].
+    pub low: T,
+    /// Upper end \[unit of the numbers\].
+    pub high: T,
+}
+
+impl<T: Copy> Interval<T> {
+    /// The interval of one number.
+    #[must_use]
+    pub const fn exactly(x: T) -> Self {
+        Self { low: x, high: x }
+    }
+}
+
+impl<T: Real> Interval<T> {
+    /// The interval between two values, in any order.
+    ///
+    /// ```
+    /// use bowden_bound::Interval;
+    /// assert_eq!(Interval::between(2.0, -1.0), Interval { low: -1.0, high: 2.0 });
+    /// ```
+    #[must_use]
+    pub fn between(a: T, b: T) -> Self {
+        if a < b {
+            Self { low: a, high: b }
+        } else {
+            Self { low: b, high: a }
+        }
+    }
+
+    /// Largest magnitude in the interval.
+    #[must_use]
+    pub fn magnitude(&self) -> T {
+        self.max_distance_from(T::zero())
+    }
+
+    /// Largest distance between `point` and a number of the interval.
+    #[must_use]
+    pub fn max_distance_from(&self, point: T) -> T {
+        let (low, high) = ((self.low - point).abs(), (self.high - point).abs());
+        if low > high {
+            low
+        } else {
+            high
+        }
+    }
+
+    /// The lower end is not above the upper end, and both are finite.
+    pub(super) fn ordered(&self, name: &'static str) -> Result<(), Error> {
+        finite(self.low, name)?;
+        if self.low > finite(self.high, name)? {
+            return Err(Error::OutOfRange(name));
+        }
+        Ok(())
+    }
+
+    /// An ordered interval of positive numbers.
+    pub(super) fn above_zero(&self, name: &'static str) -> Result<(), Error> {
+        self.ordered(name)?;
+        above_zero(self.low, name).map(drop)
+    }
 }
 
 /// Upper bound on the relative error of an operation of two floats.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// An interval of floats, whose operations are rounded outwards.
+pub(super) type Span = Interval<f64>;
 
 impl Span {
     /// The interval of all numbers: nothing is known.
@@ -18,11 +85,6 @@ impl Span {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
-
-    /// One number.
-    pub(super) const fn at(x: f64) -> Self {
-        Self { low: x, high: x }
-    }
 
     /// The interval between two numbers in either order, widened by the rounding error of each
     /// number.
@@ -55,13 +117,9 @@ impl Span {
 
     /// The squares, which are not negative.
     pub(super) fn square(self) -> Self {
-        let (a, b) = (self.low * self.low, self.high * self.high);
-        let all = Self::outward(a, b);
-        let low = if self.low <= 0.0 && self.high >= 0.0 || all.low < 0.0 {
-            0.0
-        } else {
-            all.low
-        };
+        let all = Self::outward(self.low * self.low, self.high * self.high);
+        let has_zero = self.low <= 0.0 && self.high >= 0.0;
+        let low = if has_zero { 0.0 } else { all.low.max(0.0) };
         Self { low, ..all }
     }
 
@@ -71,19 +129,15 @@ impl Span {
         (low <= high).then_some(Self { low, high })
     }
 
+    /// The numbers at a fraction of the path from these to others.
+    pub(super) fn towards(self, other: Self, part: Self) -> Self {
+        self + (other - self) * part
+    }
+
     /// Two halves.
     pub(super) fn halves(self) -> [Self; 2] {
-        let middle = self.middle();
-        [
-            Self {
-                high: middle,
-                ..self
-            },
-            Self {
-                low: middle,
-                ..self
-            },
-        ]
+        let (low, high) = (self.middle(), self.middle());
+        [Self { high, ..self }, Self { low, ..self }]
     }
 }
 
@@ -128,20 +182,17 @@ pub(super) struct Plane {
 }
 
 impl Plane {
+    pub(super) const fn new(re: Span, im: Span) -> Self {
+        Self { re, im }
+    }
+
     pub(super) fn times(self, factor: Span) -> Self {
-        Self {
-            re: self.re * factor,
-            im: self.im * factor,
-        }
+        Self::new(self.re * factor, self.im * factor)
     }
 
     /// The product with j and a real number.
     pub(super) fn turned(self, factor: Span) -> Self {
-        let turned = Self {
-            re: self.im * Span::at(-1.0),
-            im: self.re,
-        };
-        turned.times(factor)
+        Self::new(self.im * Span::exactly(-1.0), self.re).times(factor)
     }
 
     /// e^(−j·phase).
@@ -156,19 +207,14 @@ impl Plane {
                 high: all.high.min(1.0),
             }
         };
-        Self {
-            re: around(libm::cos(middle)),
-            im: around(-libm::sin(middle)),
-        }
+        Self::new(around(libm::cos(middle)), around(-libm::sin(middle)))
     }
 
     /// Whether the box lies on one side of a line through zero. The line is perpendicular to the
     /// direction of the middle of the box, or it is an axis.
     pub(super) fn is_off_zero(self) -> bool {
-        let towards = Self {
-            re: Span::at(self.re.middle()),
-            im: Span::at(-self.im.middle()),
-        };
+        let (re, im) = (self.re.middle(), -self.im.middle());
+        let towards = Self::new(Span::exactly(re), Span::exactly(im));
         let one_side = |span: Span| span.low > 0.0 || span.high < 0.0;
         one_side(self.re) || one_side(self.im) || (self * towards).re.low > 0.0
     }
@@ -177,19 +223,16 @@ impl Plane {
 impl Add for Plane {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
+        Self::new(self.re + other.re, self.im + other.im)
     }
 }
 
 impl Mul for Plane {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
+        Self::new(
+            self.re * other.re - self.im * other.im,
+            self.re * other.im + self.im * other.re,
+        )
     }
 }
