@@ -27,6 +27,13 @@ pub(crate) fn subtract_products(from: &mut [f64], a: &[f64], b: &[f64]) {
     Arch::new().dispatch(SubtractProducts(from, a, b));
 }
 
+/// Coefficients of the least-squares fit of the last of `size` columns to the others, by a Cholesky
+/// factorisation of their products. Only the lower triangle of `products`, which is stored by
+/// columns, is read, and it is overwritten. `None` if the other columns are dependent.
+pub(crate) fn coefficients(products: &mut [f64], size: usize) -> Option<Vec<f64>> {
+    Arch::new().dispatch(Coefficients(products, size))
+}
+
 struct Add<'a>(&'a mut [f64], &'a [f64]);
 
 impl WithSimd for Add<'_> {
@@ -92,10 +99,71 @@ impl WithSimd for SubtractProducts<'_> {
     }
 }
 
+struct Coefficients<'a>(&'a mut [f64], usize);
+
+impl WithSimd for Coefficients<'_> {
+    type Output = Option<Vec<f64>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let Self(products, size) = self;
+        let last = size - 1;
+        for k in 0..last {
+            let (done, rest) = products.split_at_mut((k + 1) * size);
+            let column = &mut done[k * size + k..];
+            // A NaN is not positive, either.
+            if !(column[0] > 0.0) {
+                return None;
+            }
+            let root = column[0].sqrt();
+            for v in column.iter_mut() {
+                *v /= root;
+            }
+            for (i, other) in rest.chunks_exact_mut(size).enumerate() {
+                let own = &column[i + 1..];
+                let factor = own[0];
+                for (v, l) in other[k + 1 + i..].iter_mut().zip(own) {
+                    *v -= factor * l;
+                }
+            }
+        }
+        // The last row now holds the right-hand side of a triangular system.
+        let mut solution = vec![0.0; last];
+        for k in (0..last).rev() {
+            let column = &products[k * size + k..(k + 1) * size];
+            let known = solution[k + 1..].iter().zip(&column[1..]);
+            let known: f64 = known.map(|(x, l)| x * l).sum();
+            solution[k] = (column[last - k] - known) / column[0];
+        }
+        Some(solution)
+    }
+}
+
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use nalgebra::DVectorView;
+    use nalgebra::{DMatrix, DVector, DVectorView};
+
+    #[test]
+    fn a_column_is_fitted_to_independent_columns_and_to_no_others() {
+        for size in [1, 2, 7, 8, 9, 40] {
+            let of = |i: usize, j: usize| ((3 * i + 7 * j + i * j) % 11) as f64;
+            let columns = DMatrix::from_fn(50, size, |i, j| of(i, j) + f64::from(u8::from(i == j)));
+            let x = DVector::from_fn(size, |i, _| i as f64 - 3.0);
+            let mut all = columns.clone().insert_columns(size, 1, 0.0);
+            all.set_column(size, &(&columns * &x));
+            let products = all.tr_mul(&all);
+            let own = coefficients(products.clone().as_mut_slice(), size + 1).unwrap();
+            // Squared singular values from about 1 to 1e5, so rounding errors of about 1e-11.
+            assert!((DVector::from_vec(own) - x).amax() < 1e-7, "{size}");
+            for wrong in [-1.0, 0.0, f64::NAN] {
+                let mut products = products.clone();
+                products[(size - 1, size - 1)] = wrong;
+                assert_eq!(coefficients(products.as_mut_slice(), size + 1), None);
+            }
+        }
+    }
 
     #[test]
     fn each_element_is_that_of_the_plain_loop_to_the_last_bit() {

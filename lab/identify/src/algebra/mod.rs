@@ -18,7 +18,7 @@ mod solve;
 mod span;
 mod stretch;
 
-pub(crate) use lanes::{add, subtract, subtract_products};
+pub(crate) use lanes::{add, coefficients, dot, subtract, subtract_products};
 pub(crate) use solve::{directions, inverse, least_norm, line, whitening};
 pub(crate) use span::{imitated, take_off, Span};
 pub use stretch::Stretch;

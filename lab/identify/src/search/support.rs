@@ -12,6 +12,7 @@ use super::carries_over::halves;
 use super::gram::DEPENDENT;
 use super::linear::{Group, Linear, Member};
 use super::{is_at_noise, policy};
+use crate::algebra::{coefficients, dot};
 use crate::fit::settle::settle;
 use crate::fit::{fit, Solution};
 use crate::ledger::{Ledger, Share, Support, Supported};
@@ -24,7 +25,7 @@ use crate::score::blocks::{blocks, Regime};
 use crate::score::hats::HATS;
 use bowden::effect::Motion;
 use bowden::model::Source;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::f64::consts::LN_2;
 
@@ -167,6 +168,33 @@ fn by_place(linear: &Linear) -> Vec<(Source, Vec<f64>)> {
     sources.filter_map(column).collect()
 }
 
+/// The products of some columns and, last, the target. Only the lower triangle is used.
+#[derive(Clone)]
+struct Lower(DMatrix<f64>);
+
+impl Lower {
+    fn of(products: &DMatrix<f64>, columns: &[usize], target: usize) -> Self {
+        let all: Vec<usize> = columns.iter().copied().chain([target]).collect();
+        let mut own = DMatrix::zeros(all.len(), all.len());
+        for (k, &j) in all.iter().enumerate() {
+            let column = products.column(j);
+            for (product, &i) in own.column_mut(k).iter_mut().zip(&all).skip(k) {
+                *product = column[i];
+            }
+        }
+        Self(own)
+    }
+
+    /// Squared norm of the sum of all columns with these weights.
+    fn squared_error(&self, weights: &[f64]) -> f64 {
+        let of = |(k, own): (usize, &f64)| {
+            let products = &self.0.column(k).data.into_slice()[k..];
+            own * (2.0 * dot(products, &weights[k..]) - own * products[0])
+        };
+        weights.iter().enumerate().map(of).sum()
+    }
+}
+
 impl<'a> Comparison<'a> {
     fn new(linear: &'a mut Linear<'_>) -> Self {
         let (sources, by_place): (Vec<Source>, Vec<Vec<f64>>) =
@@ -243,25 +271,18 @@ impl<'a> Comparison<'a> {
         (0..self.columns.len()).filter(is_used).collect()
     }
 
-    /// Gains of some columns, and −1 for the target, on rows with these products.
-    fn weights(&self, used: &[usize], products: &DMatrix<f64>, share: f64) -> Option<DVector<f64>> {
-        let target = self.columns.len();
-        let mut normal = products.select_rows(used).select_columns(used);
+    /// Gains of some columns, and −1 for the target, from their products on a share of the rows.
+    fn weights(&self, used: &[usize], mut products: Lower, share: f64) -> Option<Vec<f64>> {
         for (k, &i) in used.iter().enumerate() {
-            let share = if self.columns[i].is_some() {
-                share
-            } else {
-                1.0
+            let share = match self.columns[i] {
+                Some(_) => share,
+                None => 1.0,
             };
-            normal[(k, k)] += share * self.precision[i];
+            products.0[(k, k)] += share * self.precision[i];
         }
-        let right = DVector::from_iterator(used.len(), used.iter().map(|&i| products[(i, target)]));
-        let gains = normal.cholesky()?.solve(&right);
-        let mut weights = DVector::zeros(target + 1);
-        for (&i, gain) in used.iter().zip(gains.iter()) {
-            weights[i] = *gain;
-        }
-        weights[target] = -1.0;
+        let size = products.0.nrows();
+        let mut weights = coefficients(products.0.as_mut_slice(), size)?;
+        weights.push(-1.0);
         Some(weights)
     }
 
@@ -269,12 +290,16 @@ impl<'a> Comparison<'a> {
     /// `holds` is true added to the baseline model.
     fn errors(&self, holds: impl Fn(&Column) -> bool) -> Vec<f64> {
         let used = self.used(holds);
+        let target = self.columns.len();
+        let whole = Lower::of(&self.whole, &used, target);
         let of = |(half, share): &(DMatrix<f64>, f64)| {
-            let Some(weights) = self.weights(&used, half, *share) else {
-                return f64::INFINITY;
-            };
-            let left = weights.dot(&((&self.whole - half) * &weights));
-            left.max(f64::MIN_POSITIVE) / (1.0 - share)
+            let mut rest = whole.clone();
+            let half = Lower::of(half, &used, target);
+            rest.0 -= &half.0;
+            let weights = self.weights(&used, half, *share);
+            weights.map_or(f64::INFINITY, |weights| {
+                rest.squared_error(&weights).max(f64::MIN_POSITIVE) / (1.0 - share)
+            })
         };
         self.halves.par_iter().map(of).collect()
     }
@@ -349,7 +374,13 @@ impl<'a> Comparison<'a> {
         let base = self.errors(|_| false);
         let all = self.errors(|column| set.contains(&column.mechanism));
         let used = self.used(|column| set.contains(&column.mechanism));
-        let weights = self.weights(&used, &self.whole, 1.0);
+        let products = Lower::of(&self.whole, &used, self.columns.len());
+        let weights = self.weights(&used, products, 1.0).map(|own| {
+            let mut all = vec![0.0; self.columns.len() + 1];
+            let used = used.iter().copied().chain([self.columns.len()]);
+            used.zip(own).for_each(|(i, weight)| all[i] = weight);
+            all
+        });
         let of = |own: Found| {
             let mechanism = own.mechanism;
             let alone = self.errors(|column| column.mechanism == mechanism);
@@ -406,7 +437,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// The contribution of a mechanism's columns plus the residual, over the mechanism's variable.
-    fn curve(&self, weights: &DVector<f64>, mechanism: Mechanism, variable: Variable) -> Vec<Bin> {
+    fn curve(&self, weights: &[f64], mechanism: Mechanism, variable: Variable) -> Vec<Bin> {
         let (linear, seen) = (self.linear, self.linear.seen);
         let Some(values) = variable.values(seen, &linear.now.eta) else {
             return Vec::new();
