@@ -117,31 +117,3 @@ fn the_integral_stops_at_its_own_limit_and_comes_back_from_it() {
         assert_eq!(run(-1.0, 1000), -3.0);
     }
 }
-
-#[test]
-fn options_that_make_no_sense_are_refused_by_name() {
-    use Error::{NonFinite, OutOfRange};
-    for (error, x) in [
-        (OutOfRange("period"), 0.0),
-        (OutOfRange("period"), -1.0),
-        (NonFinite("period"), f64::NAN),
-    ] {
-        assert_eq!(refused(|s| s.period = Some(x)), error);
-    }
-    assert_eq!(refused(|s| s.deadband = -0.1), OutOfRange("deadband"));
-    assert_eq!(
-        refused(|s| s.deadband = f64::INFINITY),
-        NonFinite("deadband")
-    );
-    assert_eq!(
-        refused(|s| s.integral_limit = Some(0.0)),
-        OutOfRange("integral_limit")
-    );
-    assert_eq!(
-        refused(|s| s.integral_limit = Some(f64::NAN)),
-        NonFinite("integral_limit")
-    );
-    let weighted = refused(|s| (s.period, s.setpoint_weight) = (Some(360.0), 0.5));
-    let condition = "with a period: setpoint_weight 1, derivative weight 0 or 1";
-    assert_eq!(weighted.parameter(), condition);
-}

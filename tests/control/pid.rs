@@ -140,10 +140,11 @@ fn the_papers_gains_are_those_of_its_table_1() {
 
 #[test]
 fn settings_are_refused_by_name() {
-    use Error::{NonFinite, OutOfRange};
+    use Error::{Inadmissible, NonFinite, OutOfRange};
     type Change = fn(&mut PidSettings<f64>);
+    let weighted = "with a period: setpoint_weight 1, derivative weight 0 or 1";
     #[rustfmt::skip]
-    let cases: [(Change, Error); 9] = [
+    let cases: [(Change, Error); 17] = [
         (|s| s.k_p = f64::NAN, NonFinite("k_p")),
         (|s| s.k_i = f64::INFINITY, NonFinite("k_i")),
         (|s| s.k_d = f64::NAN, NonFinite("k_d")),
@@ -153,6 +154,14 @@ fn settings_are_refused_by_name() {
         (|s| s.setpoint_weight = 1.5, OutOfRange("setpoint_weight")),
         (|s| s.damping = DerivativeSource::Rate { weight: -0.1 }, OutOfRange("derivative weight")),
         (|s| s.anti_windup = AntiWindup::BackCalculation { tracking_time: 0.0 }, OutOfRange("tracking_time")),
+        (|s| s.period = Some(0.0), OutOfRange("period")),
+        (|s| s.period = Some(-1.0), OutOfRange("period")),
+        (|s| s.period = Some(f64::NAN), NonFinite("period")),
+        (|s| s.deadband = -0.1, OutOfRange("deadband")),
+        (|s| s.deadband = f64::INFINITY, NonFinite("deadband")),
+        (|s| s.integral_limit = Some(0.0), OutOfRange("integral_limit")),
+        (|s| s.integral_limit = Some(f64::NAN), NonFinite("integral_limit")),
+        (|s| (s.period, s.setpoint_weight) = (Some(360.0), 0.5), Inadmissible(weighted)),
     ];
     for (change, error) in cases {
         assert_eq!(refused(change), error);

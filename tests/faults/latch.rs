@@ -184,32 +184,6 @@ fn a_loop_without_a_safe_command_holds_for_ever_and_says_so_by_its_name() {
     assert_eq!(steps(&law, &mut state, &good(), 1).1, Status::Good);
 }
 
-proptest! {
-    /// The promise in the docs of `Fallback`: whatever the order of good and bad samples, the
-    /// safe command is out when a stretch of n of them has held B bad ones with
-    /// (weight + 1)·B - n >= after·weight, and a sum over every stretch says when that is.
-    #[test]
-    fn the_safe_command_is_out_no_later_than_stated(
-        samples in prop::collection::vec(any::<bool>(), 1..400),
-        after in 1_u32..12,
-        weight in 1_u32..9,
-    ) {
-        let fallback = Fallback::try_new(after, 0.0).unwrap().with_weight(weight).unwrap();
-        let (law, mut state) = (pid(|s| s.fallback = fallback), PidState::new());
-        let mut latched = false;
-        for (end, &is_bad) in samples.iter().enumerate() {
-            let at = if is_bad { bad() } else { good() };
-            latched |= matches!(Controller::step(&law, &mut state, &at).status, Status::Safe(_));
-            let late = (0..=end).any(|begin| {
-                let stretch = &samples[begin..=end];
-                let bad = stretch.iter().filter(|bad| **bad).count() as i64;
-                i64::from(weight + 1) * bad - stretch.len() as i64 >= i64::from(after * weight)
-            });
-            prop_assert!(latched || !late);
-        }
-    }
-}
-
 /// What the output did before the fault says nothing of what it does after it.
 #[test]
 fn after_a_fault_a_pd_starts_without_the_rate_from_before_it() {
