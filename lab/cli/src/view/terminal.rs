@@ -293,7 +293,9 @@ fn errors(facts: &Facts, report: Report) -> String {
         let mark = if round.raises_held_out { " ↑" } else { "" };
         row(name, &round.after, mark);
     }
-    if report.verbose && facts.last.refitted {
+    // The headline quotes this row.
+    let is_quoted = !facts.rounds.is_empty();
+    if facts.last.refitted && (report.verbose || is_quoted) {
         row("refitted with selection".to_owned(), &facts.last.rmse, "");
     }
     if let Some(exported) = facts.constrained() {
