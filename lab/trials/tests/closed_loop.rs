@@ -132,24 +132,9 @@ fn stribeck_friction_that_shakes_the_joint_is_at_least_not_made_worse() {
 
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
-fn a_backlash_that_nobody_declared_is_found_and_fed_forward() {
-    lowers_the_error_of_pi("backlash", QUIET);
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run closed-loop"]
-fn a_ripple_that_nobody_declared_is_found_and_fed_forward() {
-    lowers_the_error_of_pi("ripple", QUIET);
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run closed-loop"]
-fn load_friction_that_nobody_declared_is_found_and_fed_forward() {
-    lowers_the_error_of_pi("load-friction", QUIET);
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run closed-loop"]
-fn position_friction_that_nobody_declared_is_found_and_fed_forward() {
-    lowers_the_error_of_pi("position-friction", QUIET);
+fn what_else_nobody_declared_is_found_and_fed_forward() {
+    for effect in ["backlash", "ripple", "load-friction", "position-friction"] {
+        println!("{effect}");
+        lowers_the_error_of_pi(effect, QUIET);
+    }
 }

@@ -3,63 +3,35 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Names of the files in a folder.
-fn names(folder: &Path) -> impl Iterator<Item = String> {
-    let entries = std::fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+/// The newest build of the crate `bowden` beside this test.
+fn library(folder: &Path) -> PathBuf {
+    let entries = std::fs::read_dir(folder).unwrap().map(Result::unwrap);
+    let is_own = |name: &str| name.starts_with("libbowden-") && name.ends_with(".rlib");
+    let own = entries.filter(|entry| is_own(&entry.file_name().to_string_lossy()));
+    let newest = own.max_by_key(|entry| entry.metadata().unwrap().modified().unwrap());
+    newest.unwrap().path()
 }
 
-/// The newest build of a crate beside this test.
-fn library(folder: &Path, name: &str) -> PathBuf {
-    let built = names(folder).filter(|f| {
-        f.strip_prefix(&format!("lib{name}-"))
-            .is_some_and(|rest| rest.ends_with(".rlib"))
-    });
-    let built = built.map(|file| folder.join(file));
-    let age = |path: &PathBuf| std::fs::metadata(path).unwrap().modified().unwrap();
-    built.max_by_key(age).unwrap()
+fn output(command: &mut Command) -> Vec<u8> {
+    let output = command.output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    output.stdout
 }
 
 /// Compiles a program of that text with all warnings as errors, runs it, returns its words.
 pub fn compiled_and_run(text: &str, folder: &Path) -> String {
     let (source, program) = (folder.join("program.rs"), folder.join("program"));
     std::fs::write(&source, text).unwrap();
-    let built = std::env::current_exe()
-        .unwrap()
-        .parent()
-        .unwrap()
-        .to_owned();
+    let test = std::env::current_exe().unwrap();
+    let built = test.parent().unwrap();
     let compiler = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
-    let output = Command::new(compiler)
-        .args([
-            "--edition",
-            "2021",
-            "-D",
-            "warnings",
-            "-C",
-            "opt-level=0",
-            "-o",
-        ])
-        .arg(&program)
-        .arg("--extern")
-        .arg(format!("bowden={}", library(&built, "bowden").display()))
-        .arg("-L")
-        .arg(format!("dependency={}", built.display()))
-        .arg(&source)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let ran = Command::new(&program).output().unwrap();
-    assert!(
-        ran.status.success(),
-        "{}",
-        String::from_utf8_lossy(&ran.stderr)
-    );
-    String::from_utf8(ran.stdout).unwrap()
+    let mut compiler = Command::new(compiler);
+    compiler.args(["--edition", "2021", "-D", "warnings", "-C", "opt-level=0"]);
+    compiler.arg(format!("--extern=bowden={}", library(built).display()));
+    compiler.arg(format!("-Ldependency={}", built.display()));
+    output(compiler.arg("-o").arg(&program).arg(&source));
+    String::from_utf8(output(&mut Command::new(&program))).unwrap()
 }
 
 /// A file of firmware as a module of a program; only `model()` is called.

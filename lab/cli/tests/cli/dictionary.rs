@@ -1,8 +1,8 @@
 //! Words that the documents, the program and the public documentation of the core do not use.
 
+use crate::shell::{args, said};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 /// What is not written, and what is written instead.
 const WORDS: &[(&str, &str)] = &[
@@ -53,86 +53,68 @@ const WORDS: &[(&str, &str)] = &[
     ("take_over", "bumpless_transfer"),
 ];
 
-/// Where a word is right: the end of a path, the word, the reason.
-const EXCEPTIONS: &[(&str, &str, &str)] = &[];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+/// The files below a folder of the repository with this end, or the file itself.
+fn files(path: &Path, end: &str, found: &mut Vec<(String, String)>) {
+    if path.is_dir() {
+        for entry in fs::read_dir(path).unwrap().map(Result::unwrap) {
+            files(&entry.path(), end, found);
+        }
+    } else if path.extension().is_some_and(|own| own == end) {
+        let text = fs::read_to_string(path).unwrap();
+        found.push((path.display().to_string(), text));
+    }
 }
 
-/// The files below a folder with one of these ends.
-fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
-        let path = entry.path();
-        if path.is_dir() {
-            files(&path, end, found);
-        } else if path.extension().is_some_and(|own| own == end) {
-            found.push(path);
-        }
+/// The texts of some folders and files; numbers of lines stay those of the file.
+fn texts_of(paths: &[&str], end: &str, of_line: fn(&str) -> String) -> Vec<(String, String)> {
+    let (root, mut found) = (
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."),
+        Vec::new(),
+    );
+    paths
+        .iter()
+        .for_each(|path| files(&root.join(path), end, &mut found));
+    let lines = |text: &str| text.lines().map(of_line).collect::<Vec<_>>().join("\n");
+    found
+        .into_iter()
+        .map(|(name, text)| (name, lines(&text)))
+        .collect()
+}
+
+/// A line of the public documentation.
+fn documentation(line: &str) -> String {
+    let own = line.trim_start();
+    let is_public = own.starts_with("///") || own.starts_with("//!");
+    if is_public {
+        line.to_owned()
+    } else {
+        String::new()
     }
+}
+
+/// Sentences of the program: the literals that hold a blank.
+fn sentences(line: &str) -> String {
+    if line.trim_start().starts_with("//") {
+        return String::new();
+    }
+    let literals = line.split('"').skip(1).step_by(2);
+    literals
+        .filter(|own| own.contains(' '))
+        .collect::<Vec<_>>()
+        .join(" | ")
 }
 
 /// Pages, the public documentation of the core, and the texts of the program, each with its name.
 fn texts() -> Vec<(String, String)> {
-    let root = root();
-    let mut pages: Vec<PathBuf> = ["README.md", "capi/README.md", "python/README.md"]
-        .map(|page| root.join(page))
-        .into();
-    pages.push(root.join("firmware/README.md"));
-    files(&root.join("docs"), "md", &mut pages);
-    files(&root.join("src"), "md", &mut pages);
-    let page = |path: &PathBuf| {
-        (
-            path.display().to_string(),
-            fs::read_to_string(path).unwrap(),
-        )
-    };
-    let mut all: Vec<(String, String)> = pages.iter().map(page).collect();
-    let mut sources = Vec::new();
-    files(&root.join("src"), "rs", &mut sources);
-    for (name, text) in sources.iter().map(page) {
-        let docs = |line: &&str| {
-            let line = line.trim_start();
-            line.starts_with("///") || line.starts_with("//!")
-        };
-        // Numbers of lines stay those of the file.
-        let lines = text.lines().map(|line| if docs(&line) { line } else { "" });
-        all.push((name, lines.collect::<Vec<_>>().join("\n")));
-    }
-    let mut program = Vec::new();
-    for package in ["cli", "identify", "page", "trials"] {
-        files(
-            &root.join("lab").join(package).join("src"),
-            "rs",
-            &mut program,
-        );
-    }
-    for (name, text) in program.iter().map(page) {
-        // Sentences of the program: the literals that hold a blank.
-        let sentences = |line: &str| match line.trim_start().starts_with("//") {
-            true => String::new(),
-            false => {
-                let literals = line.split('"').skip(1).step_by(2);
-                literals
-                    .filter(|own| own.contains(' '))
-                    .collect::<Vec<_>>()
-                    .join(" | ")
-            }
-        };
-        let lines: Vec<String> = text.lines().map(sentences).collect();
-        all.push((name, lines.join("\n")));
-    }
-    for topic in [
-        "terms", "identify", "validate", "design", "compare", "certify", "power", "plan", "export",
-        "generate",
-    ] {
-        let mut help = Command::new(env!("CARGO_BIN_EXE_bowden"));
-        let help = help.args(["help", topic]).output().unwrap();
-        assert!(help.status.success(), "{topic}");
-        all.push((
-            format!("bowden help {topic}"),
-            String::from_utf8(help.stdout).unwrap(),
-        ));
+    let pages = "README.md capi/README.md python/README.md firmware/README.md docs src";
+    let program = "lab/cli/src lab/identify/src lab/page/src lab/trials/src";
+    let mut all = texts_of(&args(pages), "md", str::to_owned);
+    all.extend(texts_of(&["src"], "rs", documentation));
+    all.extend(texts_of(&args(program), "rs", sentences));
+    let topics = "terms identify validate design compare certify power plan export generate";
+    for topic in args(topics) {
+        let help = said(&format!("help {topic}"));
+        all.push((format!("bowden help {topic}"), help));
     }
     all
 }
@@ -153,10 +135,7 @@ fn the_documents_and_the_program_use_the_words_of_the_field() {
     for (name, text) in texts() {
         for (number, line) in text.lines().enumerate() {
             for (word, instead) in WORDS {
-                let excepted = EXCEPTIONS
-                    .iter()
-                    .any(|(end, own, _)| name.ends_with(end) && own == word);
-                if !excepted && has(line, word) {
+                if has(line, word) {
                     found.push(format!("{name}:{}: `{word}`; write: {instead}", number + 1));
                 }
             }

@@ -1,6 +1,6 @@
 //! The text of the commands on a terminal, at 80 and at 120 columns.
 
-use crate::shell::Folder;
+use crate::shell::{example, has, said, Folder};
 use bowden_cli::view::{certificates, compare, design, plan_text, power_text, proof};
 use bowden_cli::view::{text, Report, Width};
 use bowden_lab::facts::{
@@ -8,43 +8,43 @@ use bowden_lab::facts::{
 };
 use bowden_synth::stored_csv;
 use bowden_trials::facts as trials;
-use std::path::Path;
 use std::sync::OnceLock;
 
 /// What the built-in record gives, found once.
 fn facts() -> &'static Facts {
     static FACTS: OnceLock<Facts> = OnceLock::new();
     FACTS.get_or_init(|| {
-        let asked = Asked::default();
-        let record = asked
-            .read_text(stored_csv().as_bytes(), "built-in record")
-            .unwrap();
+        let (asked, csv) = (Asked::default(), stored_csv());
+        let record = asked.read_text(csv.as_bytes(), "built-in record");
         let question = Question::new(asked);
-        close(&[record], &question, &|_| ()).unwrap().facts
+        close(&[record.unwrap()], &question, &|_| ()).unwrap().facts
     })
 }
 
-/// The text without its styles.
-fn plain(columns: u16, verbose: bool) -> String {
+fn identified(width: Width, verbose: bool) -> String {
     let report = Report {
-        width: Width::of(columns),
+        width,
         verbose,
         chosen_cutoff: false,
     };
-    anstream::adapter::strip_str(&text(facts(), report)).to_string()
+    text(facts(), report)
+}
+
+/// Prose of more than 100 columns is hard to read, however wide the terminal is.
+fn assert_fits(text: &str, columns: u16) {
+    let widest = text.lines().map(|line| line.chars().count()).max().unwrap();
+    assert!(widest <= usize::from(columns).min(100), "{widest}\n{text}");
+    assert!(columns < 80 || text.lines().count() <= 25, "{text}");
 }
 
 /// Compares the text with its golden file, and its size with the terminal.
 fn golden(command: &str, print: impl Fn(Width) -> String) {
     for columns in [80, 120] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests/golden")
-            .join(format!("{command}-{columns}.txt"));
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");
+        let path = format!("{folder}/{command}-{columns}.txt");
         let text = print(Width::of(columns));
         let text = anstream::adapter::strip_str(&text).to_string();
-        let widest = text.lines().map(|line| line.chars().count()).max().unwrap();
-        assert!(widest <= usize::from(columns).min(100), "{widest}\n{text}");
-        assert!(text.lines().count() <= 25, "{text}");
+        assert_fits(&text, columns);
         if std::env::var_os("BOWDEN_WRITE_PAGES").is_some() {
             std::fs::write(&path, &text).unwrap();
         }
@@ -58,14 +58,12 @@ fn golden(command: &str, print: impl Fn(Width) -> String) {
 
 #[test]
 fn the_text_of_identify_is_the_golden_one() {
-    golden("identify", |width| {
-        let report = Report {
-            width,
-            verbose: false,
-            chosen_cutoff: false,
-        };
-        text(facts(), report)
-    });
+    golden("identify", |width| identified(width, false));
+    for columns in [60, 100] {
+        let text = identified(Width::of(columns), false);
+        assert_fits(&anstream::adapter::strip_str(&text).to_string(), columns);
+    }
+    assert!(identified(Width::of(80), true).contains("blocks improved"));
 }
 
 /// A cable whose output never falls while its input rises, so that a bound is proved.
@@ -112,22 +110,15 @@ fn the_text_of_compare_is_the_golden_one() {
         ..trials::Question::default()
     });
     golden("compare", |width| compare::text(&paper, width, false));
-    let plain = compare::text(&paper, Width::of(80), false);
-    assert!(
-        plain.contains("pi-observer (uses a plant model)"),
-        "{plain}"
-    );
-    assert!(plain.contains("Smallest error without a plant model: matched-pi"));
-    assert!(compare::text(&paper, Width::of(80), true).contains("Transient"));
+    let [plain, verbose] = [false, true].map(|all| compare::text(&paper, Width::of(80), all));
+    let best = "Smallest error without a plant model: matched-pi";
+    has(&plain, &["pi-observer (uses a plant model)", best]);
+    has(&verbose, &["Transient"]);
 
     let folder = Folder::new();
-    let (model, gains) = (
-        folder.root().join("model.toml"),
-        folder.root().join("gains.toml"),
-    );
-    std::fs::write(&model, SOFT).unwrap();
     let file = designed(SOFT, 0.006).gains.toml().unwrap();
-    std::fs::write(&gains, file).unwrap();
+    let [model, gains] = [("model.toml", SOFT), ("gains.toml", &file)]
+        .map(|(name, text)| std::path::PathBuf::from(folder.file(name, text)));
     let own = compared(&trials::Question {
         seeds: 1,
         setup: Some(&model),
@@ -144,9 +135,8 @@ fn the_text_of_certify_is_the_golden_one() {
     golden("certify", |width| print(width, false));
     assert!(print(Width::of(80), true).contains("no dynamics between u and y"));
     for name in ["own", "refused"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join(format!("../../examples/data/gains_{name}.toml"));
-        let proved = trials::prove(&path).unwrap();
+        let path = example(&format!("gains_{name}.toml"));
+        let proved = trials::prove(path.as_ref()).unwrap();
         let print = |width, verbose| proof::text(&proved, "gains.toml", width, verbose);
         golden(&format!("certify-{name}"), |width| print(width, false));
         assert!(print(Width::of(80), true).contains("no dynamics between u and y"));
@@ -198,13 +188,9 @@ fn the_text_of_power_is_the_golden_one() {
 
 #[test]
 fn the_text_of_plan_is_the_golden_one() {
-    let made = std::process::Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .args(["generate", "--mode", "displacement", "--seed", "1"])
-        .args(["--effect", "stiffness-cubic:0.6"])
-        .output()
-        .unwrap();
+    let made = said("generate --mode displacement --seed 1 --effect stiffness-cubic:0.6");
     let asked = Asked::default();
-    let record = asked.read_text(&made.stdout, "record.csv").unwrap();
+    let record = asked.read_text(made.as_bytes(), "record.csv").unwrap();
     let planned = plan(&[record], &asked, &|_| ()).unwrap();
     golden("plan", |width| plan_text("record.csv", &planned, width));
     let none = Plan {
@@ -218,55 +204,26 @@ fn the_text_of_plan_is_the_golden_one() {
 }
 
 #[test]
-fn no_line_is_wider_than_the_terminal_and_the_answer_takes_25_lines_at_most() {
-    for columns in [60, 80, 100, 120] {
-        let text = plain(columns, false);
-        let widest = text.lines().map(|line| line.chars().count()).max().unwrap();
-        // Prose of more than 100 columns is hard to read, however wide the terminal is.
-        assert!(
-            widest <= usize::from(columns).min(100),
-            "{columns}: {widest}\n{text}"
-        );
-        assert!(columns < 80 || text.lines().count() <= 25, "{text}");
-    }
-    assert!(plain(80, true).contains("blocks improved"));
-}
-
-#[test]
-fn the_readme_shows_lines_of_it() {
+fn the_readme_shows_lines_and_pictures_of_it() {
     let readme = include_str!("../../../../README.md");
     let (_, block) = readme.split_once("```text\nbowden identify").unwrap();
     let (block, _) = block.split_once("```").unwrap();
-    let text = plain(80, false);
-    let shown = block
-        .lines()
-        .skip(1)
-        .filter(|line| !line.trim().is_empty() && line.trim() != "…");
-    let mut count = 0;
+    let text = identified(Width::of(80), false);
+    let text = anstream::adapter::strip_str(&text).to_string();
+    let lines = block.lines().skip(1);
+    let shown = lines.filter(|line| !line.trim().is_empty() && line.trim() != "…");
+    let shown: Vec<&str> = shown.collect();
+    assert!(shown.len() >= 5, "{block}");
     for line in shown {
         assert!(text.lines().any(|own| own == line), "not printed: {line}");
-        count += 1;
     }
-    assert!(count >= 5, "{block}");
-}
-
-/// `bowden identify --plot docs/pictures/NAME.svg --figure NAME` draws them.
-#[test]
-fn the_pictures_of_the_readme_are_what_the_program_draws() {
+    // `bowden identify --plot docs/pictures/NAME.svg --figure NAME` draws them.
     let folder = Folder::new();
     for figure in ["loop", "residual"] {
-        let drawn = folder.root().join(format!("{figure}.svg"));
-        let status = std::process::Command::new(env!("CARGO_BIN_EXE_bowden"))
-            .args(["identify", "--figure", figure, "--plot"])
-            .arg(&drawn)
-            .output()
-            .unwrap()
-            .status;
-        assert!(status.success());
-        let kept = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../../docs/pictures")
-            .join(format!("{figure}.svg"));
-        let read = |path: &Path| std::fs::read_to_string(path).unwrap();
-        assert_eq!(read(&drawn), read(&kept), "{figure}");
+        let drawn = folder.path("drawn.svg");
+        said(&format!("identify --figure {figure} --plot {drawn}"));
+        let kept = example(&format!("../../docs/pictures/{figure}.svg"));
+        let kept = std::fs::read_to_string(kept).unwrap();
+        assert_eq!(folder.read("drawn.svg"), kept, "{figure}");
     }
 }

@@ -1,6 +1,7 @@
 //! Good records are read: in every spelling, cut, held, quantised, and measured by others.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[allow(dead_code)]
 #[path = "../shared/rows.rs"]
 mod fine;
 mod json;
@@ -12,157 +13,83 @@ mod segments;
 mod shared;
 mod stamps;
 mod times;
-mod units;
 mod workbook;
 
-use bowden_lab::record::{of_columns, parse, read, Column, Mode, Options, Record};
-use fine::{csv, rows, with_line};
-use std::fmt::Write as _;
+use bowden_lab::record::{of_columns, Column, Mode, Options, Record};
+use fine::*;
 use std::path::{Path, PathBuf};
-
-/// The record with two columns computed from the time.
-fn of(input: impl Fn(f64) -> f64, output: impl Fn(f64) -> f64) -> String {
-    let mut text = "t,x,f\n".to_owned();
-    for i in 0..2000 {
-        let t = f64::from(i) * 0.01;
-        writeln!(text, "{t},{},{}", input(t), output(t)).unwrap();
-    }
-    text
-}
-
-fn accepted(bytes: impl AsRef<[u8]>) -> Record {
-    parse(bytes.as_ref(), "r.csv", &Options::default()).unwrap_or_else(|error| panic!("{error}"))
-}
 
 #[test]
 fn a_good_record_is_read_in_every_spelling() {
-    let plain = accepted(csv("t,x,f", &rows()));
-    assert_eq!((plain.mode, plain.samples()), (Mode::Displacement, 400));
-    assert!((plain.step() - 0.01).abs() < 1e-12);
+    let none = Options::default();
+    let record = same(plain(), &none, &[]);
+    let own = (record.mode, record.samples());
+    assert_eq!(own, (Mode::Displacement, 400));
+    assert!((record.step() - 0.01).abs() < 1e-12);
     let text = csv("t [s],x [mm],\"f [N]\"", &rows());
-    let trailing: Vec<_> = rows().iter().map(|row| format!("{row}, ")).collect();
     for other in [
-        csv("t,x,f", &rows()).replace('\n', "\r\n") + "\r\n\r\n",
+        text.clone(),
         format!("\u{feff}{text}"),
+        text.replace('\n', "\r\n") + "\r\n\r\n",
         text.replace(',', ";"),
         text.replace(',', "\t"),
         text.replace('\n', "\r"),
-        csv("t [s], x [mm], f [N], ", &trailing),
+        wider("t [s], x [mm], f [N], ", ", "),
     ] {
-        let record = accepted(&other);
-        assert_eq!(
-            (&record.time, &record.input.values),
-            (&plain.time, &plain.input.values)
-        );
-        assert_eq!(record.output.values, plain.output.values);
+        let record = same_numbers(&other, &none);
+        assert_eq!(units(&record), [Some("mm"), Some("N")]);
     }
-    let units = accepted(text);
-    assert_eq!(units.input.unit.as_deref(), Some("mm"));
-    assert_eq!(units.output.unit.as_deref(), Some("N"));
 }
 
 #[test]
 fn quoted_cells_hold_separators_quotes_and_line_ends() {
-    let plain = accepted(csv("t,x,f", &rows()));
     for (newline, separator) in [("\n", ","), ("\r\n", ";"), ("\r", "\t")] {
-        let quoted = |(i, row): (usize, &String)| {
-            let cells: Vec<_> = row.split(',').map(|cell| format!("\"{cell}\"")).collect();
-            let note = match i {
-                7 => "\"the \"\"old\"\" jaw, as is; warm\"",
-                9 => "\"slipped,\n\nmounted anew\n\"",
-                _ => "\"\"",
-            };
-            format!("{},{note}", cells.join(",")).replace("\",\"", &format!("\"{separator}\""))
-        };
-        let rows: Vec<_> = rows().iter().enumerate().map(quoted).collect();
-        let header = [
+        let names = [
             "t",
             "\"x [mm]\"",
             "\"f\n[N]\"",
             "\"what \"\"they\"\" said, or; not\"",
         ];
-        let text = csv(&header.join(separator), &rows);
-        let record = accepted(text.replace('\n', newline));
-        assert_eq!(
-            (&record.time, &record.input.values, &record.output.values),
-            (&plain.time, &plain.input.values, &plain.output.values)
-        );
+        let text = changed(&names.join(separator), |i, row| {
+            let note = match i {
+                7 => "\"the \"\"old\"\" jaw, as is; warm\"",
+                9 => "\"slipped,\n\nmounted anew\n\"",
+                _ => "\"\"",
+            };
+            let cells = row.replace(',', &format!("\"{separator}\""));
+            format!("\"{cells}\"{separator}{note}")
+        });
+        let text = text.replace('\n', newline);
+        let notes = [
+            "columns not read: `what \"they\" said, or; not`",
+            "1 row spans several lines within quotes",
+        ];
+        let record = same(&text, &Options::default(), &notes);
         assert_eq!(record.output.name, "f");
-        assert_eq!(record.output.unit.as_deref(), Some("N"));
-        assert_eq!(
-            record.notes,
-            [
-                "columns not read: `what \"they\" said, or; not`",
-                "1 row spans several lines within quotes",
-            ]
-        );
+        assert_eq!(units(&record)[1], Some("N"));
         // Lines are counted as an editor does, those inside quotes included.
-        let error = parse(
-            text.replace("\"0.20\"", "\"0,20\"")
-                .replace('\n', newline)
-                .as_bytes(),
-            "r.csv",
-            &Options::default(),
-        );
-        assert_eq!(
-            error.unwrap_err().to_string(),
-            "r.csv:26: column `t`: `0,20` has a decimal comma; write a decimal point"
-        );
+        let says = "26: column `t`: `0,20` has a decimal comma; write a decimal point";
+        refused(text.replace("\"0.20\"", "\"0,20\""), says);
     }
-}
-
-/// Most programs write `time`; a `t` beside it is the time.
-#[test]
-fn the_time_may_be_called_time() {
-    let read = |names: &str, rows: &[String]| {
-        let text = csv(names, rows);
-        parse(text.as_bytes(), "r.csv", &Options::default()).unwrap()
-    };
-    let usual = read("t,x,f", &rows());
-    for names in ["time,x,f", "Time,x,f", "time_s,x,f", "Time [s],x,f"] {
-        assert_eq!(read(names, &rows()).time, usual.time, "{names}");
-    }
-    let milliseconds = read("Time [ms],x,f", &rows());
-    let step = |time: &[f64]| time[1] - time[0];
-    assert!((step(&milliseconds.time) / step(&usual.time) - 1e-3).abs() < 1e-9);
-    let both: Vec<String> = rows().iter().map(|row| format!("{row},7")).collect();
-    assert_eq!(read("t,x,f,time", &both).time, usual.time);
 }
 
 #[test]
 fn channels_are_read_by_their_own_name_or_by_the_given_one() {
-    let rows: Vec<_> = rows()
-        .iter()
-        .map(|row| format!("{row},1.5,2.5,3.5"))
-        .collect();
-    let options = Options {
-        channels: vec![("phi_d".into(), "jaw_rad".into())],
-        ..Options::default()
-    };
-    let text = csv("t,tau_i,tau_o,phi_p [rad],jaw_rad,spare", &rows);
-    let record = parse(text.as_bytes(), "r.csv", &options).unwrap();
-    let first = |column: &bowden_lab::record::Column| (column.name.clone(), column.values[0]);
-    let named: Vec<_> = record.channels.iter().map(first).collect();
-    assert_eq!(
-        named,
-        [("phi_d".to_owned(), 2.5), ("phi_p".to_owned(), 1.5)]
-    );
-    assert_eq!(
-        record.channel("phi_d").unwrap().unit.as_deref(),
-        Some("rad")
-    );
+    let header = "t,tau_i,tau_o,phi_p [rad],jaw_rad,spare";
+    let text = wider(header, ",1.5,2.5,3.5");
+    let record = read(text, &channels(&[("phi_d", "jaw_rad")]));
+    let named = record.channels.iter();
+    let named: Vec<_> = named.map(|c| (c.name.as_str(), c.values[0])).collect();
+    assert_eq!(named, [("phi_d", 2.5), ("phi_p", 1.5)]);
+    assert_eq!(record.channels[0].unit.as_deref(), Some("rad"));
     assert_eq!(record.mode, Mode::Torque);
     assert_eq!(record.notes, ["columns not read: `spare`"]);
 }
 
 #[test]
 fn cuts_count_from_the_first_time_stamp_and_hide_what_they_cut() {
-    let options = Options {
-        skip: 0.5,
-        until: Some(3.0),
-        ..Options::default()
-    };
-    let record = parse(with_line(12, "0.1,cut away,").as_bytes(), "r.csv", &options).unwrap();
+    let cut = with(|o| (o.skip, o.until) = (0.5, Some(3.0)));
+    let record = read(with_line(12, "0.1,cut away,"), &cut);
     assert_eq!((record.samples(), record.time[0]), (251, 0.0));
     assert_eq!(record.notes, ["149 of 400 samples cut"]);
 }
@@ -187,17 +114,12 @@ fn holds_quantisation_and_dry_friction_are_not_clipping() {
 #[test]
 fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
     let angle = |unit: &str, of_a_radian: f64| {
-        let row = |(i, row): (usize, &String)| {
+        let header = format!("t,tau_i,tau_o,phi_p [{unit}],phi_d [rad]");
+        let text = changed(&header, |i, row| {
             let q = 0.8 * (0.02 * i as f64).sin();
             format!("{row},{},{}", q * of_a_radian, 0.5 * q)
-        };
-        let rows: Vec<String> = rows().iter().enumerate().map(row).collect();
-        let text = csv(&format!("t,tau_i,tau_o,phi_p [{unit}],phi_d [rad]"), &rows);
-        let options = Options {
-            channels: vec![("stretch".into(), "phi_p-phi_d".into())],
-            ..Options::default()
-        };
-        parse(text.as_bytes(), "r.csv", &options).unwrap()
+        });
+        read(text, &channels(&[("stretch", "phi_p-phi_d")]))
     };
     let plain = angle("rad", 1.0);
     assert_eq!(plain.notes, [""; 0]);
@@ -230,12 +152,9 @@ fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
     }
     // The input of displacement mode is what effects are functions of, its output is not.
     let record = accepted(csv("t,x [deg],f [deg]", &rows()));
-    assert_eq!(record.input.unit.as_deref(), Some("rad"));
-    assert_eq!(record.output.unit.as_deref(), Some("deg"));
-    assert_eq!(
-        record.output.values,
-        accepted(csv("t,x,f", &rows())).output.values
-    );
+    assert_eq!(units(&record), [Some("rad"), Some("deg")]);
+    let plain = accepted(fine::plain());
+    assert_eq!(record.output.values, plain.output.values);
     // Columns in memory go the same way.
     let column = |name: &str, values: &[f64]| Column {
         name: name.to_owned(),
@@ -245,7 +164,7 @@ fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
     };
     let columns = vec![
         column("t", &record.time),
-        column("x [deg]", &accepted(csv("t,x,f", &rows())).input.values),
+        column("x [deg]", &plain.input.values),
         column("f", &record.output.values),
     ];
     let arrays = of_columns(columns, "arrays", &Options::default()).unwrap();
@@ -256,12 +175,10 @@ fn angles_are_read_in_radians_and_an_output_stays_as_it_is() {
 /// A single-turn encoder leaps in the unit of its log.
 #[test]
 fn an_angle_in_degrees_is_unwrapped_before_it_is_converted() {
-    let row = |(i, row): (usize, &String)| {
+    let record = accepted(changed("t,tau_i,tau_o,phi_p [deg]", |i, row| {
         let q = (170.0 + 0.1 * i as f64 + 180.0).rem_euclid(360.0) - 180.0;
         format!("{row},{q:.4}")
-    };
-    let rows: Vec<String> = rows().iter().enumerate().map(row).collect();
-    let record = accepted(csv("t,tau_i,tau_o,phi_p [deg]", &rows));
+    }));
     assert_eq!(
         record.notes,
         [
@@ -289,13 +206,8 @@ fn mapping(path: &Path) -> Option<Options> {
         "mr_damper_utfsm" => ("displacement_mm", "force_N"),
         _ => return None,
     };
-    let mut options = Options {
-        mode: Some(Mode::Displacement),
-        time: Some("time_s".into()),
-        input: Some(input.into()),
-        output: Some(output.into()),
-        ..Options::default()
-    };
+    let mut options = ends(input, output);
+    options.time = Some("time_s".to_owned());
     match folder {
         "davinci_cable_tool" => {
             options.mode = Some(Mode::Torque);
@@ -331,7 +243,8 @@ fn every_measured_record_is_read() {
         let Some(options) = mapping(&path) else {
             continue;
         };
-        let record = read(&path, &options).unwrap_or_else(|error| panic!("{error}"));
+        let record = bowden_lab::record::read(&path, &options);
+        let record = record.unwrap_or_else(|error| panic!("{error}"));
         println!(
             "{}: {} samples, {:?}",
             record.path,

@@ -1,7 +1,6 @@
 //! Tables whose names come again: one record if the time continues.
 
-use super::{accepted, csv, rows};
-use bowden_lab::record::{parse, Options, Record};
+use super::*;
 
 /// What is above the names, the names, and what is below them.
 type Head = (&'static str, &'static str, &'static str);
@@ -19,86 +18,50 @@ const HEADS: [Head; 4] = [
 ];
 
 /// The plain record in segments of a hundred rows, behind each of which is a blank line.
-fn blocks((preamble, names, units): Head, last: usize) -> String {
-    let all = rows();
+fn blocks((preamble, names, units): Head) -> String {
     let of = |rows: &[String]| format!("{preamble}{names}{units}{}\n\n", rows.join("\n"));
-    all[..last].chunks(100).map(of).collect()
+    rows().chunks(100).map(of).collect()
 }
 
 fn segment(text: &str, number: usize) -> Record {
-    let options = Options {
-        segment: Some(number),
-        ..Options::default()
-    };
-    parse(text.as_bytes(), "r.csv", &options).unwrap_or_else(|error| panic!("{error}"))
+    read(text, &with(|o| o.segment = Some(number)))
 }
 
 #[test]
 fn names_that_come_again_while_the_time_goes_on_leave_one_record() {
-    let plain = accepted(csv("t,x,f", &rows()));
+    let none = Options::default();
     for head in HEADS {
-        let text = blocks(head, 400);
-        let record = accepted(&text);
-        assert_eq!(record.time, plain.time, "{head:?}");
-        assert_eq!(record.input.values, plain.input.values, "{head:?}");
-        assert_eq!(record.output.values, plain.output.values, "{head:?}");
-        let names = text
-            .lines()
-            .enumerate()
-            .filter(|(_, line)| *line == head.1.trim());
-        let second = names.map(|(index, _)| index + 1).nth(1).unwrap();
+        let text = blocks(head);
+        let record = same_numbers(&text, &none);
+        let lines = (1..).zip(text.lines());
+        let mut names = lines.filter(|(_, line)| *line == head.1.trim());
+        let second = names.nth(1).unwrap().0;
         let said = format!(
             "the column names are repeated, first in line {second}; 4 segments were read as one record"
         );
         assert!(record.notes.contains(&said), "{:?}", record.notes);
+        // Of two records with four segments each, the first four belong together.
+        let line = refusal(text.repeat(2), &with(|o| o.segment = Some(5)));
+        let says = "the record is too short: 100 samples";
+        assert!(line.contains(says), "{line}");
     }
     // Without blank lines, with blanks between the columns, and with names but no units.
+    let text = blocks(HEADS[0]);
     for text in [
-        blocks(HEADS[0], 400).replace("\n\n", "\n"),
-        blocks(HEADS[0], 400).replace(',', " "),
-        blocks(HEADS[0], 400).replace("t,x,f\n", "t,x,f\nt,x,f\n"),
-        blocks(HEADS[0], 400) + &"t,x,f\n".repeat(100_000),
-        blocks(HEADS[0], 400).replacen("f\n", "f\ns,mm,N\n", 1),
+        text.replace("\n\n", "\n"),
+        text.replace(',', " "),
+        text.replace("t,x,f\n", "t,x,f\nt,x,f\n"),
+        text.clone() + &"t,x,f\n".repeat(100_000),
+        text.replacen("f\n", "f\ns,mm,N\n", 1),
     ] {
-        assert_eq!(accepted(&text).time, plain.time, "{text:.30}");
+        same_numbers(&text, &none);
     }
 }
 
 #[test]
 fn a_segment_is_read_by_its_number() {
-    let restart = |head: Head| {
-        let own = blocks(head, 400);
-        [own.as_str(), &own].concat()
-    };
-    for head in HEADS {
-        // Of two records with four segments each, the first four belong together.
-        let text = restart(head);
-        let short = Options {
-            segment: Some(5),
-            ..Options::default()
-        };
-        let line = parse(text.as_bytes(), "r.csv", &short)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            line.contains("the record is too short: 100 samples"),
-            "{line}"
-        );
-    }
-    let whole = |shift: f64| {
-        let row = |(i, row): (usize, String)| {
-            format!(
-                "{:.2},{}",
-                shift + 0.01 * i as f64,
-                row.split_once(',').unwrap().1
-            )
-        };
-        csv(
-            "t,x,f",
-            &rows().into_iter().enumerate().map(row).collect::<Vec<_>>(),
-        )
-    };
-    let text = [whole(0.0), whole(7.0), whole(0.0)].concat();
+    let whole = |shift: f64| stamped("t,x,f", |i| format!("{:.2}", shift + 0.01 * i as f64));
+    let text = [0.0, 7.0, 0.0].map(whole).concat();
     let (first, second) = (segment(&text, 1), segment(&text, 2));
     assert_eq!(first.samples(), 400);
     assert_eq!(first.input.values, second.input.values);

@@ -1,8 +1,8 @@
 //! Excel workbooks: each kind of cell, of sheet and of damage.
 
-use super::npz::zip;
-use super::{accepted, csv, rows};
-use bowden_lab::record::{excerpt, outline, parse, Options, Record};
+use super::npz::{no_byte_panics, zip};
+use super::*;
+use bowden_lab::record::{excerpt, outline, parse};
 
 /// Cell formats by index: general, a date with a time, a time of day, a duration.
 const STYLES: &str = r#"<styleSheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main">
@@ -72,109 +72,67 @@ fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
     zip(&files, true)
 }
 
-fn read(sheets: &[(&str, &str)], options: &Options) -> Result<Record, String> {
+fn of_sheets(sheets: &[(&str, &str)], options: &Options) -> Result<Record, String> {
     parse(&workbook(sheets), "r.xlsx", options).map_err(|error| error.to_string())
 }
 
-/// The one sheet with the plain record under this head, each row changed.
-fn sheet(head: &str, row: impl Fn(usize, &str) -> String) -> String {
-    let rows: Vec<String> = rows()
-        .iter()
-        .enumerate()
-        .map(|(i, own)| row(i, own))
-        .collect();
-    csv(head, &rows)
-}
-
-/// A row with another first cell.
-fn stamped(row: &str, stamp: &str) -> String {
-    format!("{stamp}{}", &row[row.find(',').unwrap()..])
+/// The numbers of the plain record; a double of days resolves a microsecond, and stamps are read to
+/// that.
+fn assert_plain(record: &Record) {
+    let plain = accepted(plain());
+    assert_eq!(record.input.values, plain.input.values);
+    assert_eq!(record.output.values, plain.output.values);
+    let mut apart = record.time.iter().zip(&plain.time);
+    let is_near = apart.all(|(a, b)| (a - b).abs() < 2e-6);
+    assert!(is_near, "{:?}", record.time);
 }
 
 #[test]
 fn a_sheet_is_read_as_its_text_would_be() {
-    let plain = accepted(csv("t,x,f", &rows()));
-    let as_it_is = |_: usize, row: &str| row.to_owned();
-    let day = 46_082.0;
-    let stamp = |format: usize, days: f64| format!("={format}:{days}");
-    let seconds = |i: usize| i as f64 * 0.01;
+    // Dates, times of day and durations.
+    let days = |format: usize, from: f64| {
+        stamped("t,x,f", |i| {
+            format!("={format}:{}", from + i as f64 * 0.01 / 86_400.0)
+        })
+    };
+    let head = |head: &str| csv(head, &rows());
     for (sheet, unit, note) in [
-        (sheet("t,x,f", as_it_is), None, ""),
-        (sheet("t,x [mm],f [N]", as_it_is), Some("mm"), ""),
+        (plain(), None, ""),
+        (head("t,x [mm],f [N]"), Some("mm"), ""),
         (
-            sheet("Rig 7,,\n,,\nt,x,f\ns,mm,N", as_it_is),
+            head("Rig 7,,\n,,\nt,x,f\ns,mm,N"),
             Some("mm"),
             "units from line 4",
         ),
         (
-            sheet("# a comment,,,a note\nt,x,f", as_it_is),
+            head("# a comment,,,a note\nt,x,f"),
             None,
             "line 1 above the names",
         ),
-        // Dates, times of day and durations.
-        (
-            sheet("t,x,f", |i, row| {
-                stamped(row, &stamp(1, day + 0.5 + seconds(i) / 86_400.0))
-            }),
-            None,
-            "",
-        ),
-        (
-            sheet("t,x,f", |i, row| {
-                stamped(row, &stamp(2, 0.5 + seconds(i) / 86_400.0))
-            }),
-            None,
-            "",
-        ),
-        (
-            sheet("t,x,f", |i, row| {
-                stamped(row, &stamp(3, 2.0 + seconds(i) / 86_400.0))
-            }),
-            None,
-            "",
-        ),
+        (days(1, 46_082.5), None, ""),
+        (days(2, 0.5), None, ""),
+        (days(3, 2.0), None, ""),
         // A column of text next to the numbers.
-        (sheet("t,x,f,who", |_, row| format!("{row},Ü")), None, ""),
+        (wider("t,x,f,who", ",Ü"), None, ""),
     ] {
-        let record = read(&[("Sheet1", &sheet)], &Options::default());
-        let record = record.unwrap_or_else(|error| panic!("{error}\n{}", &sheet[..200]));
-        assert_eq!(record.input.values, plain.input.values);
-        assert_eq!(record.output.values, plain.output.values);
-        // A double of days resolves a microsecond, and stamps are read to that.
-        let apart = record.time.iter().zip(&plain.time);
-        assert!(
-            apart.clone().all(|(a, b)| (a - b).abs() < 2e-6),
-            "{:?}",
-            record.time
-        );
-        assert_eq!(record.input.unit.as_deref(), unit);
+        let record = of_sheets(&[("Sheet1", &sheet)], &Options::default()).unwrap();
+        assert_plain(&record);
+        assert_eq!(units(&record)[0], unit);
         assert!(record.notes.concat().contains(note), "{:?}", record.notes);
     }
 }
 
 #[test]
 fn an_error_of_a_sheet_counts_as_an_empty_cell() {
-    let broken = |cell: &str| {
-        sheet("t,x,f", |i, row| match i {
-            7 => format!("0.07,{cell},1"),
-            _ => row.to_owned(),
-        })
-    };
-    let lines = ["", "!#DIV/0!"].map(|cell| {
-        let sheets = broken(cell);
-        let refusal = read(&[("Sheet1", &sheets)], &Options::default()).unwrap_err();
-        let options = Options {
-            drop_bad: true,
-            ..Options::default()
-        };
-        assert_eq!(read(&[("Sheet1", &sheets)], &options).unwrap().dropped, 1);
-        refusal
-    });
-    assert_eq!(lines[0], lines[1]);
-    assert_eq!(
-        lines[0],
-        "r.xlsx:9: column `x`: the cell is empty, but it must be a number; --drop-bad drops such rows"
-    );
+    for cell in ["", "!#DIV/0!"] {
+        let sheet = with_line(9, &format!("0.07,{cell},1"));
+        let sheets = [("Sheet1", sheet.as_str())];
+        assert_eq!(
+            of_sheets(&sheets, &Options::default()).unwrap_err(),
+            "r.xlsx:9: column `x`: the cell is empty, but it must be a number; --drop-bad drops such rows"
+        );
+        assert_eq!(of_sheets(&sheets, &drop_bad()).unwrap().dropped, 1);
+    }
 }
 
 #[test]
@@ -182,14 +140,8 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
     let own = csv("t,x,f", &rows());
     let other = csv("a,b,c", &rows());
     let words = "Operator,Ann\nRig,7\n";
-    let read = |sheets: &[(&str, &str)], sheet: Option<&str>| {
-        let sheet = sheet.map(str::to_owned);
-        let options = Options {
-            sheet,
-            ..Options::default()
-        };
-        read(sheets, &options).map(|record| record.notes)
-    };
+    let at = |sheet: Option<&str>| with(|o| o.sheet = sheet.map(str::to_owned));
+    let read = |sheets: &[(&str, &str)], sheet| of_sheets(sheets, &at(sheet)).map(|own| own.notes);
     let all = [
         ("Notes", words),
         ("Other", &*other),
@@ -216,17 +168,10 @@ fn the_sheet_with_the_columns_is_read_and_the_others_are_named() {
         refusal(&[("Run", &own), ("Empty", "")], Some("Empty")),
         "r.xlsx: --sheet Empty: the sheet is empty"
     );
-    let text = parse(
-        own.as_bytes(),
-        "r.csv",
-        &Options {
-            sheet: Some("A".into()),
-            ..Options::default()
-        },
-    );
-    assert_eq!(
-        text.unwrap_err().to_string(),
-        "r.csv: --sheet A: the file is not an Excel workbook"
+    refused_with(
+        own,
+        &at(Some("A")),
+        " --sheet A: the file is not an Excel workbook",
     );
 }
 
@@ -299,16 +244,8 @@ fn what_other_writers_do_is_read() {
         .map(|(name, text)| (*name, text.clone().into_bytes()))
         .collect();
     let record = parse(&zip(&files, true), "r.xlsx", &Options::default()).unwrap();
-    let plain = accepted(csv("t,x,f", &rows()));
-    assert_eq!(record.input.values, plain.input.values);
-    assert_eq!(record.output.values, plain.output.values);
-    assert_eq!(record.output.unit.as_deref(), Some("N"));
-    let mut apart = record.time.iter().zip(&plain.time);
-    assert!(
-        apart.all(|(a, b)| (a - b).abs() < 2e-6),
-        "{:?}",
-        record.time
-    );
+    assert_plain(&record);
+    assert_eq!(units(&record)[1], Some("N"));
     let names: Vec<String> = outline(&zip(&files, true), &Options::default())
         .unwrap()
         .columns
@@ -333,7 +270,7 @@ fn a_binary_workbook_is_named() {
 
 #[test]
 fn damage_to_a_workbook_is_refused() {
-    let whole = workbook(&[("Sheet1", &csv("t,x,f", &rows()))]);
+    let whole = workbook(&[("Sheet1", &plain())]);
     let refusal = |bytes: &[u8]| {
         parse(bytes, "r.xlsx", &Options::default())
             .unwrap_err()
@@ -358,14 +295,7 @@ fn damage_to_a_workbook_is_refused() {
         refusal(&workbook(&[("S", &wide)])),
         "r.xlsx: row 3 of sheet `S` has a cell in column 257, but a sheet may have at most 256 columns"
     );
-    // Any byte of any value: a refusal or a record, and no panic.
-    for at in (0..whole.len()).step_by(97) {
-        for byte in [0, 1, 0x7f, 0xff] {
-            let mut spoilt = whole.clone();
-            spoilt[at] = byte;
-            let _ = parse(&spoilt, "r.xlsx", &Options::default());
-        }
-    }
+    no_byte_panics(&whole, 97);
 }
 
 #[test]

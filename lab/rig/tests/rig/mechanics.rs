@@ -1,7 +1,7 @@
 //! What the equations of motion say in closed form.
 
 use approx::assert_relative_eq;
-use bowden::effect::{Effect, Gain, StiffnessQuadratic, Viscous};
+use bowden::effect::{Effect, Gain, Quantity, StiffnessQuadratic, Viscous};
 use bowden::model::{Source, Term};
 use bowden_rig::{Reference, Rig, RigConfig, RigState};
 
@@ -19,8 +19,14 @@ fn linear() -> RigConfig<f64> {
     }
 }
 
-fn settle<const N: usize>(rig: &Rig<f64, N>, command: f64, seconds: f64) -> RigState<f64, N> {
-    let mut state = rig.start(1);
+fn started(config: RigConfig<f64>) -> (Rig<f64, 0>, RigState<f64, 0>) {
+    let rig = Rig::try_new(config, &[]).unwrap();
+    let state = rig.start(1);
+    (rig, state)
+}
+
+fn settled(config: RigConfig<f64>, command: f64, seconds: f64) -> RigState<f64, 0> {
+    let (rig, mut state) = started(config);
     for _ in 0..(seconds * 1e3) as usize {
         rig.step(&mut state, command, 1e-3);
     }
@@ -29,8 +35,7 @@ fn settle<const N: usize>(rig: &Rig<f64, N>, command: f64, seconds: f64) -> RigS
 
 #[test]
 fn at_rest_the_torque_is_the_drives_and_the_angles_follow_hooke() {
-    let rig = Rig::<f64, 0>::try_new(linear(), &[]).unwrap();
-    let state = settle(&rig, 50.0, 3.0);
+    let state = settled(linear(), 50.0, 3.0);
     let now = state.sample();
     // 0.6 N·m/unit; the slowest mode, th1/(K + ...) = 20 ms, has long decayed.
     assert_relative_eq!(now.tau_o, 30.0, max_relative = 1e-9);
@@ -47,8 +52,7 @@ fn the_transmission_is_the_papers_and_loses_seven_newton_metres() {
         noise: 0.0,
         ..RigConfig::reference()
     };
-    let rig = Rig::<f64, 0>::try_new(config, &[]).unwrap();
-    let mut state = rig.start(1);
+    let (rig, mut state) = started(config);
     for k in 0..4000 {
         rig.step(&mut state, 0.02 * f64::from(k), 1e-3);
     }
@@ -75,8 +79,7 @@ fn a_rigid_joint_turns_the_motor_into_its_own_first_order_lag() {
         delay: 0,
         ..linear()
     };
-    let rig = Rig::<f64, 0>::try_new(config, &[]).unwrap();
-    let mut state = rig.start(1);
+    let (rig, mut state) = started(config);
     let (w0, decay) = ((1000.0_f64 / 0.2).sqrt(), 2.7 / 0.4);
     let w = (w0 * w0 - decay * decay).sqrt();
     for k in 1..=300 {
@@ -103,8 +106,7 @@ fn without_friction_and_drive_the_energy_stays() {
         drive_lag: 1e-5,
         ..linear()
     };
-    let rig = Rig::<f64, 0>::try_new(config, &[]).unwrap();
-    let mut state = rig.start(1);
+    let (rig, mut state) = started(config);
     for _ in 0..200 {
         rig.step(&mut state, 30.0, 1e-3);
     }
@@ -132,8 +134,7 @@ fn without_friction_and_drive_the_energy_stays() {
 fn the_command_arrives_late_by_whole_samples() {
     for delay in 0..=3_u8 {
         let config = RigConfig { delay, ..linear() };
-        let rig = Rig::<f64, 0>::try_new(config, &[]).unwrap();
-        let mut state = rig.start(1);
+        let (rig, mut state) = started(config);
         for k in 0..=delay {
             let now = rig.step(&mut state, 10.0, 1e-3);
             assert_eq!(now.tau_m > 0.0, k == delay);
@@ -143,8 +144,7 @@ fn the_command_arrives_late_by_whole_samples() {
 
 #[test]
 fn the_sensor_lags_by_its_time_constant() {
-    let rig = Rig::<f64, 0>::try_new(linear(), &[]).unwrap();
-    let mut state = rig.start(1);
+    let (rig, mut state) = started(linear());
     let mut late = Vec::new();
     for k in 0..4000 {
         // A slow ramp: what is measured is the truth of one time constant ago.
@@ -160,8 +160,7 @@ fn the_sensor_lags_by_its_time_constant() {
 
 #[test]
 fn rates_are_those_of_the_encoder_through_one_and_two_lags() {
-    let rig = Rig::<f64, 0>::try_new(linear(), &[]).unwrap();
-    let mut state = rig.start(1);
+    let (rig, mut state) = started(linear());
     let w = 3.0_f64;
     for k in 0..6000 {
         let t = f64::from(k) * 1e-3;
@@ -181,8 +180,7 @@ fn an_encoder_tells_whole_counts_and_a_converter_saturates() {
         noise: 0.0,
         ..RigConfig::reference()
     };
-    let rig = Rig::<f64, 0>::try_new(config, &[]).unwrap();
-    let state = settle(&rig, 300.0, 2.0);
+    let state = settled(config, 300.0, 2.0);
     let now = state.sample();
     assert!(now.tau_o > 150.0 && now.measured == 100.0);
     let counts = now.distal.position / (2.0 * std::f64::consts::PI / 16384.0);
@@ -203,6 +201,12 @@ fn an_undeclared_effect_adds_its_gain_times_its_regressor() {
         term(Viscous.into(), Source::Channel(0), -2.0),
         term(Gain.into(), Source::Input, 0.1),
     ];
+    // `gain` is a function of the load or of the position, as the catalogue says.
+    let reads = Effect::<f64>::from(Gain).info().reads;
+    let from = match reads.contains(&Quantity::Position) {
+        true => 0.05,
+        false => 0.0,
+    };
     let rig = Rig::<f64, 3>::try_new(linear(), &terms).unwrap();
     let mut state = rig.start(1);
     for k in 0..3000 {
@@ -210,25 +214,15 @@ fn an_undeclared_effect_adds_its_gain_times_its_regressor() {
         rig.step(&mut state, 30.0 + 20.0 * (3.0 * t).sin(), 1e-3);
         let (now, p, d) = (state.sample(), state.proximal(), state.distal());
         let expected = now.tau_i - 40.0 * (d.position - 0.05).powi(2) - 2.0 * p.velocity
-            + 0.1 * (now.tau_i - if gain_reads_position() { 0.05 } else { 0.0 });
+            + 0.1 * (now.tau_i - from);
         // The motion is that of the sub-step before: 25 µs of its rate.
         assert_relative_eq!(now.tau_o, expected, epsilon = 0.05);
     }
 }
 
-/// `gain` is a function of the load or of the position, as the catalogue says.
-fn gain_reads_position() -> bool {
-    use bowden::effect::Quantity;
-    Effect::<f64>::from(Gain)
-        .info()
-        .reads
-        .contains(&Quantity::Position)
-}
-
 #[test]
 fn a_torque_on_the_joint_moves_it_and_not_the_motor_alone() {
-    let rig = Rig::<f64, 0>::try_new(linear(), &[]).unwrap();
-    let mut state = rig.start(1);
+    let (rig, mut state) = started(linear());
     for _ in 0..3000 {
         rig.step_with_load(&mut state, 0.0, 15.0, 1e-3);
     }

@@ -76,11 +76,8 @@ fn what_leaves_the_range_of_floats_stands_still_and_says_so() {
     let rig = Rig::<f32, 0>::try_new(RigConfig::reference(), &[]).unwrap();
     let mut state = rig.start(1);
     for k in 0..2000 {
-        let now = rig.step(
-            &mut state,
-            if k % 2 == 0 { f32::MAX } else { f32::MIN },
-            1e-3,
-        );
+        let command = if k % 2 == 0 { f32::MAX } else { f32::MIN };
+        let now = rig.step(&mut state, command, 1e-3);
         assert!(now.tau_o.is_finite() && now.measured.is_finite() && now.tau_m.is_finite());
     }
     assert!(state.sample().diverged);
@@ -88,49 +85,28 @@ fn what_leaves_the_range_of_floats_stands_still_and_says_so() {
 
 #[test]
 fn numbers_that_make_no_rig_are_refused_by_name() {
-    let reference = RigConfig::<f64>::reference();
-    let refused = |config| Rig::<f64, 0>::try_new(config, &[]).unwrap_err();
-    let joint_inertia = 0.0;
-    assert_eq!(
-        refused(RigConfig {
-            joint_inertia,
-            ..reference
-        }),
-        Error::OutOfRange("joint_inertia")
-    );
-    let noise = f64::NAN;
-    assert_eq!(
-        refused(RigConfig { noise, ..reference }),
-        Error::NonFinite("noise")
-    );
-    assert_eq!(
-        refused(RigConfig {
-            delay: 9,
-            ..reference
-        }),
-        Error::OutOfRange("delay")
-    );
-    assert!(matches!(
-        refused(RigConfig {
-            sub_step: 1e-3,
-            ..reference
-        }),
-        Error::Inadmissible(_)
-    ));
+    let refused = |set: fn(&mut RigConfig<f64>)| {
+        let mut config = RigConfig::reference();
+        set(&mut config);
+        Rig::<f64, 0>::try_new(config, &[]).unwrap_err()
+    };
+    let zero = Error::OutOfRange("joint_inertia");
+    assert_eq!(refused(|c| c.joint_inertia = 0.0), zero);
+    assert_eq!(refused(|c| c.noise = f64::NAN), Error::NonFinite("noise"));
+    assert_eq!(refused(|c| c.delay = 9), Error::OutOfRange("delay"));
+    let coarse = refused(|c| c.sub_step = 1e-3);
+    assert!(matches!(coarse, Error::Inadmissible(_)));
     let term = Term {
         effect: Viscous.into(),
         source: Source::Channel(2),
         origin: 0.0,
         gain: 1.0,
     };
-    assert_eq!(
-        Rig::<f64, 1>::try_new(reference, &[term]).unwrap_err(),
-        Error::OutOfRange("channel")
-    );
-    assert_eq!(
-        Rig::<f64, 0>::try_new(reference, &[term]).unwrap_err(),
-        Error::Capacity("undeclared effects")
-    );
+    let reference = RigConfig::reference();
+    let line = Rig::<f64, 1>::try_new(reference, &[term]).unwrap_err();
+    assert_eq!(line, Error::OutOfRange("channel"));
+    let line = Rig::<f64, 0>::try_new(reference, &[term]).unwrap_err();
+    assert_eq!(line, Error::Capacity("undeclared effects"));
 }
 
 proptest! {

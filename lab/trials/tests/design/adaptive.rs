@@ -1,6 +1,6 @@
 //! The adaptive law in lag form: admitted, certified, and within its certificate.
 
-use super::{cable, design, designed, model, rising, ASKED};
+use super::{cable, design, designed, model, rising, ASKED, QUICK};
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, Form, Limits};
 use bowden::hysteresis::BoucWenState;
 use bowden_rig::{Noise, Reference};
@@ -41,11 +41,7 @@ fn the_certificate_is_the_shipped_one_of_the_plant_that_the_model_describes() {
     let text = model([0.9, 2.0, 0.05, 0.2, 0.6, 2.0], term)
         + "[about.ranges.phi_p]\nposition = [-1.0, 1.0]\nvelocity = [-2.0, 3.0]\nacceleration = [-9.0, 9.0]\n\
            [about.intervals]\ngain = [0.88, 0.92]\nkappa_eta = [1.9, 2.1]\noffset = [0.0, 0.1]\n";
-    let asked = Question {
-        delay: 0.0,
-        ..ASKED
-    };
-    let own = design(&text, "m.toml", &asked).unwrap();
+    let own = design(&text, "m.toml", &QUICK).unwrap();
     let law = Adaptive::try_new(own.adaptive.settings.unwrap()).unwrap();
     // f = rho·2·sigma = 0.24, B - kappa_eta·f = 0.42; the viscous share is at most 0.3 N·m.
     let rate = 0.42 * 40.0;
@@ -80,13 +76,7 @@ fn the_error_on_a_plant_that_answers_within_the_step_stays_within_the_certificat
     let mut certified = 0;
     for _ in 0..12 {
         let numbers = rising(&mut dice);
-        let own = designed(
-            numbers,
-            &Question {
-                delay: 0.0,
-                ..ASKED
-            },
-        );
+        let own = designed(numbers, &QUICK);
         let law = own.adaptive.settings.unwrap();
         let Some(bound) = own.adaptive.certificate else {
             continue;
@@ -148,34 +138,25 @@ fn the_boxes_are_the_intervals_of_the_model_and_what_is_assumed_is_said() {
 #[test]
 fn where_no_gain_is_admissible_it_says_why() {
     let numbers = [0.9, 2.0, 0.05, 0.2, 0.6, 2.0];
-    let slow = designed(
-        numbers,
-        &Question {
-            rate: 2.0,
-            delay: 0.4,
-            ..ASKED
-        },
-    );
+    let asked = Question {
+        rate: 2.0,
+        delay: 0.4,
+        ..ASKED
+    };
+    let slow = designed(numbers, &asked);
     assert!(slow.adaptive.settings.is_none() && slow.gains.adaptive.is_none());
     let why = slow.adaptive.refused.unwrap();
     assert!(why.contains("h·lambda <= 1 exclude each other"), "{why}");
     let text = model(numbers, "") + "[about.intervals]\ngain = [-0.1, 1.9]\n";
     let open = design(&text, "m.toml", &ASKED).unwrap().adaptive;
-    assert!(open
-        .refused
-        .unwrap()
-        .contains("B includes values down to -0.1"));
+    let why = open.refused.unwrap();
+    assert!(why.contains("B includes values down to -0.1"), "{why}");
     // A cable that turns back has gains and no certificate.
     let back = designed([0.9, 2.0, 0.05, 0.4, 3.0, 1.0], &ASKED);
     assert!(back.slopes.least < 0.0 && back.adaptive.settings.is_some());
-    assert!(back
-        .adaptive
-        .uncertified
-        .unwrap()
-        .contains("smallest slope"));
+    let why = back.adaptive.uncertified.unwrap();
+    assert!(why.contains("smallest slope"), "{why}");
     assert!(back.bounds.reference_rate.is_none());
-    assert!(back
-        .notes
-        .iter()
-        .any(|n| n.contains("the output moves against the input")));
+    let said = |note: &String| note.contains("the output moves against the input");
+    assert!(back.notes.iter().any(said));
 }

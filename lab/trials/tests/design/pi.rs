@@ -177,9 +177,9 @@ fn the_slew_rate_cuts_no_noise_and_the_limits_are_what_the_record_has_covered() 
 
 #[test]
 fn a_loop_at_the_longest_dt_still_settles() {
+    let numbers = [0.9, 2.0, 0.0, 0.2, 0.6, 2.0];
     for delay in [0.0, 0.001, 0.004, 0.02] {
         let asked = Question { delay, ..ASKED };
-        let numbers = [0.9, 2.0, 0.0, 0.2, 0.6, 2.0];
         let own = designed(numbers, &asked);
         let ratio = own.bounds.longest_dt * asked.rate;
         assert!((1.25..=5.0).contains(&ratio), "{ratio}");

@@ -8,24 +8,17 @@ use std::process::{Command, Stdio};
 
 /// What the checker says of certificates, a line each; `None` without Python.
 fn checked(certificates: &[Proof]) -> Option<Vec<String>> {
-    let script = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/cli/certificates/check.py"
-    );
-    let child = Command::new("python3")
-        .arg(script)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn();
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/certificates");
+    let mut python = Command::new("python3");
+    python.arg("check.py").current_dir(folder);
+    let child = python.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
     let Ok(mut child) = child else {
         println!("skipped: python3 is not there");
         return None;
     };
     let mut input = child.stdin.take().unwrap();
-    let lines = certificates
-        .iter()
-        .map(|c| serde_json::to_string(c).unwrap() + "\n");
-    let lines: String = lines.collect();
+    let line = |own: &Proof| serde_json::to_string(own).unwrap() + "\n";
+    let lines: String = certificates.iter().map(line).collect();
     // Beside the reading: neither pipe fills up.
     let writer = std::thread::spawn(move || input.write_all(lines.as_bytes()));
     let output = child.wait_with_output().unwrap();
@@ -52,56 +45,55 @@ impl Random {
         low + (high - low) * unit
     }
 
+    fn is_within(&mut self, share: f64) -> bool {
+        self.within(0.0, 1.0) < share
+    }
+
     /// Any gains, at rates from 200 Hz to 20 kHz: many are proved, many are not.
     fn gains(&mut self) -> String {
-        let float = if self.within(0.0, 1.0) < 0.5 {
-            "f32"
-        } else {
-            "f64"
-        };
-        let (k, lambda) = (self.within(0.5, 40.0), self.within(1.0, 15.0));
-        let (step, epsilon) = (
-            1.0 / (200.0 * self.within(1.0, 10.0).powi(2)),
-            self.within(0.02, 1.0),
-        );
+        let float = if self.is_within(0.5) { "f32" } else { "f64" };
+        let mut text = format!("float = \"{float}\"\n");
+        let step = 1.0 / (200.0 * self.within(1.0, 10.0).powi(2));
         let spread = self.within(0.0, 0.3);
-        let mut text = format!(
-            "float = \"{float}\"\nk = {k:e}\nlambda = {lambda:e}\nstep = {step:e}\nepsilon = {epsilon:e}\n\
-             z_limit = {:e}\ncommand = {:e}\nbeta = [{:e}, {:e}]\ndelta = [0.0, {:e}]\n[plant]\n\
-             alpha = [{:e}, {:e}]\ndisturbance = {:e}\ndisturbance_rate = {:e}\nreference = {:e}\nreference_rate = {:e}\n",
-            self.within(0.05, 2.0),
-            self.within(20.0, 200.0),
-            1.0 - spread,
-            1.0 + spread,
-            self.within(0.0, 8.0),
-            self.within(0.8, 1.0),
-            self.within(1.0, 1.2),
-            self.within(0.0, 10.0),
-            self.within(0.0, 60.0),
-            self.within(0.0, 40.0),
-            self.within(0.0, 50.0),
-        );
+        let (low, high) = (1.0 - spread, 1.0 + spread);
+        let _ = writeln!(text, "step = {step:e}\nbeta = [{low:e}, {high:e}]");
+        // A slew rate that is met, or one that is not.
+        if self.is_within(0.5) {
+            let _ = writeln!(text, "slew = {:e}", self.within(5.0, 70.0).powi(2));
+        }
+        for (name, low, high) in [
+            ("k", 0.5, 40.0),
+            ("lambda", 1.0, 15.0),
+            ("epsilon", 0.02, 1.0),
+            ("z_limit", 0.05, 2.0),
+            ("command", 20.0, 200.0),
+        ] {
+            let _ = writeln!(text, "{name} = {:e}", self.within(low, high));
+        }
+        let delta = self.within(0.0, 8.0);
+        let alpha = [self.within(0.8, 1.0), self.within(1.0, 1.2)];
+        let _ = writeln!(text, "delta = [0.0, {delta:e}]\n[plant]\nalpha = {alpha:?}");
+        for (name, high) in [
+            ("disturbance", 10.0),
+            ("disturbance_rate", 60.0),
+            ("reference", 40.0),
+            ("reference_rate", 50.0),
+        ] {
+            let _ = writeln!(text, "{name} = {:e}", self.within(0.0, high));
+        }
         let mut left = self.within(0.0, 4.0);
         while left > 1.0 {
             left -= 1.0;
             let (low, mut high) = (self.within(-2.0, 0.5), self.within(0.5, 3.0));
             // An estimate that does not move.
-            if self.within(0.0, 1.0) < 0.2 {
+            if self.is_within(0.2) {
                 high = low;
             }
-            let _ = write!(
-                text,
-                "[[regressor]]\ntheta_hat = [{low:e}, {high:e}]\ntheta = [{:e}, {:e}]\nmagnitude = {:e}\nrate = {:e}\n",
-                self.within(low, 0.5),
-                self.within(0.5, high.max(0.5)),
-                self.within(0.0, 4.0),
-                self.within(0.0, 10.0),
-            );
-        }
-        // A slew rate that is met, or one that is not.
-        if self.within(0.0, 1.0) < 0.5 {
-            let slew = format!("slew = {:e}\nbeta = ", self.within(5.0, 70.0).powi(2));
-            text = text.replacen("beta = ", &slew, 1);
+            let theta = [self.within(low, 0.5), self.within(0.5, high.max(0.5))];
+            let (magnitude, rate) = (self.within(0.0, 4.0), self.within(0.0, 10.0));
+            let boxes = format!("theta_hat = [{low:e}, {high:e}]\ntheta = {theta:?}");
+            let sizes = format!("magnitude = {magnitude:e}\nrate = {rate:e}");
+            let _ = writeln!(text, "[[regressor]]\n{boxes}\n{sizes}");
         }
         text
     }
@@ -114,22 +106,20 @@ fn random(number: usize, seed: u64) -> Vec<Proof> {
         .collect()
 }
 
-fn examples() -> Vec<Proof> {
-    ["gains_table2.toml", "gains_own.toml", "gains_refused.toml"]
-        .map(|name| parse(&std::fs::read_to_string(example(name)).unwrap(), name).unwrap())
-        .to_vec()
+/// An example with one text of it replaced.
+fn changed(name: &str, from: &str, to: &str) -> Proof {
+    let own = std::fs::read_to_string(example(name)).unwrap();
+    parse(&own.replace(from, to), name).unwrap()
 }
 
-/// `gains_own.toml` with another limit of the command.
-fn limited(command: &str) -> Proof {
-    let own = std::fs::read_to_string(example("gains_own.toml")).unwrap();
-    let limit = format!("command = {command}");
-    parse(&own.replace("command = 60.0", &limit), "limited").unwrap()
+fn examples() -> [Proof; 3] {
+    ["gains_table2.toml", "gains_own.toml", "gains_refused.toml"].map(|name| changed(name, "", ""))
 }
 
 #[test]
 fn another_program_agrees_on_a_limit_that_may_be_met() {
-    let (met, weak) = (limited("41.0"), limited("40.0"));
+    let [met, weak] = ["command = 41.0", "command = 40.0"]
+        .map(|limit| changed("gains_own.toml", "command = 60.0", limit));
     assert!(met.proved && met.may_meet_the_limit);
     assert!(!weak.proved && weak.may_meet_the_limit);
     let mut denied = met.clone();
@@ -172,78 +162,75 @@ fn another_program_agrees_on_ten_thousand_random_gains() {
 }
 
 /// Half, and twice, what a number is.
-fn scaled(exact: &str, by: i32) -> String {
+fn scale(exact: &mut String, by: i32) {
     let (mantissa, exponent) = exact.split_once("*2^").unwrap();
     let exponent: i32 = exponent.parse().unwrap();
-    format!("{mantissa}*2^{}", exponent + by)
+    *exact = format!("{mantissa}*2^{}", exponent + by);
 }
 
 /// A little off: the mantissa's last of 40 bits.
-fn nudged(exact: &str, by: i128) -> String {
+fn nudge(exact: &mut String, by: i128) {
     let (mantissa, exponent) = exact.split_once("*2^").unwrap();
     let (mantissa, exponent): (i128, i32) = (mantissa.parse().unwrap(), exponent.parse().unwrap());
     let up = mantissa.leading_zeros() - (128 - 40).min(mantissa.leading_zeros());
     let mantissa = (mantissa << up) + by;
     #[allow(clippy::cast_possible_wrap)]
     let exponent = exponent - up as i32;
-    format!("{mantissa}*2^{exponent}")
+    *exact = format!("{mantissa}*2^{exponent}");
 }
 
 #[test]
 fn each_inequality_with_a_number_changed_is_caught() {
-    let good = examples().remove(1);
+    let [_, good, refused] = examples();
+    let slewed = changed(
+        "gains_own.toml",
+        "command = 60.0",
+        "slew = 500.0\ncommand = 60.0",
+    );
+    assert!(slewed.proved);
     let mut mutated = Vec::new();
+    let mut mutate = |own: &Proof, change: &dyn Fn(&mut Proof)| {
+        let mut other = own.clone();
+        change(&mut other);
+        mutated.push(other);
+    };
     for i in 0..good.inequalities.len() {
         for by in [-1, 1] {
-            let mut left = good.clone();
-            left.inequalities[i].left.exact = scaled(&good.inequalities[i].left.exact, by);
-            let mut right = good.clone();
-            right.inequalities[i].right.exact = scaled(&good.inequalities[i].right.exact, by);
-            mutated.extend([left, right]);
+            mutate(&good, &|own| scale(&mut own.inequalities[i].left.exact, by));
+            mutate(&good, &|own| {
+                scale(&mut own.inequalities[i].right.exact, by)
+            });
         }
         // Too favourable by a millionth of a millionth.
-        let mut left = good.clone();
-        left.inequalities[i].left.exact = nudged(&good.inequalities[i].left.exact, -(1 << 20));
-        let mut right = good.clone();
-        right.inequalities[i].right.exact = nudged(&good.inequalities[i].right.exact, 1 << 20);
-        mutated.extend([left, right]);
+        mutate(&good, &|own| {
+            nudge(&mut own.inequalities[i].left.exact, -(1 << 20))
+        });
+        mutate(&good, &|own| {
+            nudge(&mut own.inequalities[i].right.exact, 1 << 20)
+        });
     }
-    for i in 0..good.at_the_limit.len() {
-        for by in [-1, 1] {
-            let mut left = good.clone();
-            left.at_the_limit[i].left.exact = scaled(&good.at_the_limit[i].left.exact, by);
-            mutated.push(left);
-        }
-    }
-    let text = std::fs::read_to_string(example("gains_own.toml")).unwrap();
-    let slewed = text.replace("command = 60.0", "slew = 500.0\ncommand = 60.0");
-    let slewed = parse(&slewed, "slewed").unwrap();
-    assert!(slewed.proved);
     for by in [-1, 1] {
-        let (mut left, mut right) = (slewed.clone(), slewed.clone());
-        let sides = |own: &mut Proof| own.slew.take().unwrap();
-        let (mut a, mut b) = (sides(&mut left), sides(&mut right));
-        a.left.exact = scaled(&a.left.exact, by);
-        b.right.exact = scaled(&b.right.exact, by);
-        (left.slew, right.slew) = (Some(a), Some(b));
-        mutated.extend([left, right]);
+        for i in 0..good.at_the_limit.len() {
+            mutate(&good, &|own| scale(&mut own.at_the_limit[i].left.exact, by));
+        }
+        mutate(&slewed, &|own| {
+            scale(&mut own.slew.as_mut().unwrap().left.exact, by)
+        });
+        mutate(&slewed, &|own| {
+            scale(&mut own.slew.as_mut().unwrap().right.exact, by)
+        });
     }
     // A smaller box than was proved, and a refusal that is called a proof.
-    let mut smaller = good.clone();
-    smaller.s.exact = scaled(&good.s.exact, -1);
-    let mut refused = examples().remove(2);
-    refused.proved = true;
-    let mut claimed = examples().remove(2);
-    claimed.proved = true;
-    claimed.inequalities[1].holds = true;
-    mutated.extend([smaller, refused, claimed]);
+    mutate(&good, &|own| scale(&mut own.s.exact, -1));
+    mutate(&refused, &|own| own.proved = true);
+    mutate(&refused, &|own| {
+        own.proved = true;
+        own.inequalities[1].holds = true;
+    });
     let Some(said) = checked(&mutated) else {
         return;
     };
     for (i, line) in said.iter().enumerate() {
-        assert!(
-            !line.ends_with(": ok"),
-            "mutation {i} was not caught: {line}"
-        );
+        assert!(!line.ends_with(": ok"), "mutation {i}: {line}");
     }
 }

@@ -1,5 +1,4 @@
-//! `bowden certify GAINS.toml`: what is proved of one's own gains, and who checks it.
+//! `bowden certify FILE`: what it prints and writes, and what checkers of other people say of it.
 
 mod checked;
-mod foreign;
 mod forms;

@@ -1,8 +1,8 @@
 //! The figures of the reference rig, as the program prints them; tolerances are those of
 //! the specification, except where a reason stands beside.
 
-use super::{json, row};
-use crate::shell::{args, Folder};
+use super::row;
+use crate::shell::{has, json, Folder};
 use serde_json::Value;
 
 fn mean(report: &Value, controller: &str, what: &str) -> f64 {
@@ -12,7 +12,7 @@ fn mean(report: &Value, controller: &str, what: &str) -> f64 {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn with_a_quiet_sensor_the_adaptive_law_is_five_times_better_than_pi() {
-    let report = json(&["compare", "--noise", "0.02", "--seeds", "2", "--json"]);
+    let report = json("compare --noise 0.02 --seeds 2 --json");
     for name in ["pi", "pid", "piv"] {
         let error = mean(&report, name, "rmse_true");
         assert!((0.57..=0.64).contains(&error), "{name} {error}");
@@ -28,7 +28,7 @@ fn with_a_quiet_sensor_the_adaptive_law_is_five_times_better_than_pi() {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn with_the_experiments_noise_the_measured_errors_are_table_3s() {
-    let report = json(&["compare", "--noise", "0.28", "--seeds", "2", "--json"]);
+    let report = json("compare --noise 0.28 --seeds 2 --json");
     for (name, expected) in [
         ("pi", 0.60),
         ("pid", 0.585),
@@ -46,7 +46,7 @@ fn with_the_experiments_noise_the_measured_errors_are_table_3s() {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn a_moved_conduit_costs_every_law_something_and_the_adaptive_one_little() {
-    let report = json(&args("compare --noise 0.02 --varying --seeds 3 --json"));
+    let report = json("compare --noise 0.02 --varying --seeds 3 --json");
     // The independent simulation: 0.560 and 0.053; three slow random paths scatter by 10 %.
     assert!((mean(&report, "pi", "rmse_true") - 0.560).abs() < 0.056);
     assert!((mean(&report, "adaptive", "rmse_true") - 0.053).abs() < 0.010);
@@ -59,7 +59,7 @@ fn a_moved_conduit_costs_every_law_something_and_the_adaptive_one_little() {
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn an_observer_has_two_thirds_of_the_adaptive_laws_error_at_a_quarter_of_its_effort() {
     for (noise, error, effort) in [("0.02", 0.030, 488.0), ("0.28", 0.100, 6819.0)] {
-        let report = json(&["compare", "--noise", noise, "--seeds", "2", "--json"]);
+        let report = json(&format!("compare --noise {noise} --seeds 2 --json"));
         let own = mean(&report, "pi-observer", "rmse_true");
         assert!((own / error - 1.0).abs() < 0.05, "{own}");
         let of = |name: &str| row(&report, name)["effort"].as_f64().unwrap();
@@ -72,26 +72,15 @@ fn an_observer_has_two_thirds_of_the_adaptive_laws_error_at_a_quarter_of_its_eff
 
 #[test]
 fn the_json_has_the_schema_that_was_promised() {
-    let report = json(&["compare", "--seconds", "14", "--seeds", "2", "--json"]);
+    let report = json("compare --seconds 14 --seeds 2 --json");
     assert_eq!(report["schema"], "bowden.compare/1");
     let rows = report["rows"].as_array().unwrap();
-    let names: Vec<&str> = rows
+    let names: Vec<_> = rows
         .iter()
         .map(|r| r["controller"].as_str().unwrap())
         .collect();
-    assert_eq!(
-        names,
-        [
-            "pi",
-            "pid",
-            "piv",
-            "matched-pi",
-            "pi-observer",
-            "adaptive",
-            "adaptive-frozen",
-            "adaptive-feed-forward"
-        ]
-    );
+    let laws = "pi pid piv matched-pi pi-observer adaptive adaptive-frozen adaptive-feed-forward";
+    assert_eq!(names.join(" "), laws);
     for row in rows {
         for key in ["rmse_true", "rmse_measured"] {
             assert!(row[key]["mean"].as_f64().unwrap() > 0.0);
@@ -109,24 +98,24 @@ fn the_json_has_the_schema_that_was_promised() {
 #[test]
 fn a_trace_holds_what_the_figures_show() {
     let folder = Folder::new();
-    let path = folder.root().join("trace.csv");
-    let path = path.to_str().unwrap();
-    json(&args(&format!(
-        "compare --seconds 9 --seeds 2 --trace {path} --json"
-    )));
-    let text = std::fs::read_to_string(path).unwrap();
+    let trace = folder.path("trace.csv");
+    json(&format!(
+        "compare --seconds 9 --seeds 2 --trace {trace} --json"
+    ));
+    let text = folder.read("trace.csv");
     let mut lines = text.lines();
     let header = lines.next().unwrap();
-    for column in [
-        "y_r",
-        "tau_o",
-        "tau_i",
-        "e [N·m]",
-        "beta_hat",
-        "theta_hat_2",
-    ] {
-        assert!(header.contains(column), "{column}");
-    }
+    has(
+        header,
+        &[
+            "y_r",
+            "tau_o",
+            "tau_i",
+            "e [N·m]",
+            "beta_hat",
+            "theta_hat_2",
+        ],
+    );
     let columns = header.split(',').count();
     let mut rows = 0;
     for line in lines {
@@ -141,9 +130,10 @@ fn a_trace_holds_what_the_figures_show() {
 #[test]
 #[ignore = "slow: bash .ci/run closed-loop"]
 fn on_a_gait_learning_leaves_a_third_of_the_adaptive_laws_error() {
-    let gait = args("compare --gait --noise 0.02 --seeds 2 --json");
-    for moved in [&[][..], &["--varying"]] {
-        let report = json(&[&gait[..], moved].concat());
+    for moved in ["", "--varying"] {
+        let report = json(&format!(
+            "compare --gait --noise 0.02 --seeds 2 --json {moved}"
+        ));
         let own = mean(&report, "pi-learning", "rmse_measured");
         let adaptive = mean(&report, "adaptive", "rmse_measured");
         assert!(own < 0.09 && own < adaptive / 3.0, "{own} {adaptive}");

@@ -1,7 +1,7 @@
 //! `bowden certify` on the file of `bowden design`.
 
-use super::text;
-use crate::shell::{bowden, refused, said, text as of_bytes, Folder};
+use super::design;
+use crate::shell::{bowden, has, json, refuses, said, text, Folder};
 use serde_json::Value;
 
 /// A cable whose output never turns back: 0.95 - 2·0.2·1.2 = 0.47 is its least slope.
@@ -10,113 +10,102 @@ const SOFT: &str = include_str!("../shell/soft.toml");
 /// Gains of the soft cable, and what the design says of them.
 fn designed(place: &Folder) -> (String, Value) {
     let (model, gains) = (place.file("soft.toml", SOFT), place.path("gains.toml"));
-    let asked = ["design", &model, "--rate", "1000", "--delay", "0.0001"];
-    let report = said(&[&asked, ["--out", &gains, "--json"].as_slice()].concat());
-    (gains, serde_json::from_str(&report).unwrap())
+    let report = design(&model, "1000", "0.0001", &format!("--out {gains} --json"));
+    (
+        place.read("gains.toml"),
+        serde_json::from_str(&report).unwrap(),
+    )
 }
 
-/// The file with some lines of a table replaced.
+/// Gains with some lines of a table replaced.
 fn with(gains: &str, table: &str, lines: &[(&str, &str)]) -> String {
-    let all = text(gains);
-    let (before, own) = all.split_once(&format!("[{table}]\n")).unwrap();
+    let (before, own) = gains.split_once(&format!("[{table}]\n")).unwrap();
     let (own, after) = own.split_once("\n\n").unwrap_or((own, ""));
     let mut own = own.to_owned();
     for (key, value) in lines {
-        let old = own.lines().find(|l| l.starts_with(&format!("{key} = ")));
+        let mut all = own.lines();
+        let old = all.find(|l| l.starts_with(&format!("{key} = ")));
         own = own.replace(old.unwrap(), &format!("{key} = {value}"));
     }
     format!("{before}[{table}]\n{own}\n\n{after}")
+}
+
+/// Gains with other limits of the command.
+fn limited(gains: &str, low: &str, high: &str, slew: &str) -> String {
+    let limits = [("low", low), ("high", high), ("slew", slew)];
+    with(gains, "adaptive.limits", &limits)
 }
 
 #[test]
 fn designed_gains_are_proved_as_they_stand_and_refused_beyond_what_their_limits_hold() {
     let place = Folder::new();
     let (gains, report) = designed(&place);
+    let certify = |gains: &str| format!("certify {}", place.file("own.toml", gains));
+    let proved = |gains: &str| json(&format!("{} --json", certify(gains)));
+    let refusal = |gains: &str| {
+        let output = bowden(&certify(gains));
+        assert_eq!(output.status.code(), Some(1));
+        text(&output.stdout).to_owned()
+    };
     // The record has reached -12 N·m, which does not hold its greatest output and the friction:
     // less is promised, and `certify` proves that.
-    let stated = said(&["certify", &gains, "--json"]);
-    let stated: Value = serde_json::from_str(&stated).unwrap();
+    let stated = proved(&gains);
     assert_eq!(stated["proved"], true);
     assert_eq!(stated["may_meet_the_limit"], false);
     let promised = report["adaptive"]["certificate"].as_f64().unwrap();
-    let error = stated["error"]["value"].as_f64().unwrap();
-    assert!((promised / error - 1.0).abs() < 1e-12, "{promised} {error}");
+    let error = |of: &Value| of["error"]["value"].as_f64().unwrap();
+    let own = error(&stated);
+    assert!((promised / own - 1.0).abs() < 1e-12, "{promised} {own}");
     let reference = report["adaptive"]["plant"]["reference"].as_f64().unwrap();
     // (reference + friction and offset + 2·S)/alpha within 12.
     assert!(reference > 4.0 && reference < 12.0 * 0.95, "{reference}");
     let beyond = with(&gains, "plant", &[("reference", "13.15")]);
-    let output = bowden(&["certify", &place.file("beyond.toml", &beyond)]);
-    assert_eq!(output.status.code(), Some(1));
-    let refusal = of_bytes(&output.stdout);
-    assert!(refusal.contains("NOT PROVED in f32"), "{refusal}");
-    assert!(refusal.contains("a command limit of at least"), "{refusal}");
+    has(
+        &refusal(&beyond),
+        &["NOT PROVED in f32", "a command limit of at least"],
+    );
 
     // The fastest input of the record is slower than the law from the corner of its box.
-    let slow = with(&gains, "adaptive.limits", &[("slew", "40.0")]);
-    let output = bowden(&["certify", &place.file("slow.toml", &slow)]);
-    assert_eq!(output.status.code(), Some(1));
-    let refusal = of_bytes(&output.stdout);
-    let (_, enough) = refusal
+    let slew = |slew: &str| with(&gains, "adaptive.limits", &[("slew", slew)]);
+    let slow = refusal(&slew("40.0"));
+    let (_, enough) = slow
         .split_once("Remedy: a slew-rate limit of at least ")
         .unwrap();
-    let enough = enough.split(' ').next().unwrap();
-    let mended = with(&gains, "adaptive.limits", &[("slew", enough)]);
-    said(&["certify", &place.file("mended.toml", &mended)]);
+    proved(&slew(enough.split(' ').next().unwrap()));
 
-    // A limit that holds both, the same on both sides, may be met.
-    let gains = place.file("beyond.toml", &beyond);
-    let wide = with(
-        &gains,
-        "adaptive.limits",
-        &[("low", "-19.0"), ("high", "19.0"), ("slew", "900.0")],
-    );
-    let wide = place.file("wide.toml", &wide);
-    let proved = said(&["certify", &wide]);
-    assert!(proved.contains("PROVED in f32"), "{proved}");
-    let json: Value = serde_json::from_str(&said(&["certify", &wide, "--json"])).unwrap();
-    // A greater reference has a greater box.
-    let (own, peak) = (
-        json["error"]["value"].as_f64().unwrap(),
-        report["adaptive"]["certificate"].as_f64().unwrap(),
-    );
-    assert!(own > peak && own < 1.5 * peak, "{own} {peak}");
-    assert_eq!(json["may_meet_the_limit"], true);
-    for (key, field) in [("disturbance", "disturbance"), ("reference", "reference")] {
+    // A limit that holds both, the same on both sides, may be met. A greater reference has a
+    // greater box.
+    let wide = limited(&beyond, "-19.0", "19.0", "900.0");
+    has(&said(&certify(&wide)), &["PROVED in f32"]);
+    let stated = proved(&wide);
+    let own = error(&stated);
+    assert!(own > promised && own < 1.5 * promised, "{own} {promised}");
+    assert_eq!(stated["may_meet_the_limit"], true);
+    for key in ["disturbance", "reference"] {
         assert!(report["adaptive"]["plant"][key].is_number(), "{report}");
-        assert!(json["plant"][field].is_string(), "{json}");
+        assert!(stated["plant"][key].is_string(), "{stated}");
     }
-
     // Other limits on either side may be met too, and no theorem is of them.
-    let uneven = with(
-        &gains,
-        "adaptive.limits",
-        &[("low", "-19.0"), ("high", "24.0"), ("slew", "900.0")],
-    );
-    let output = bowden(&["certify", &place.file("uneven.toml", &uneven)]);
-    assert_eq!(output.status.code(), Some(1));
-    let refusal = of_bytes(&output.stdout);
-    assert!(refusal.contains("symmetric command limits"), "{refusal}");
-
+    let uneven = limited(&beyond, "-19.0", "24.0", "900.0");
+    has(&refusal(&uneven), &["symmetric command limits"]);
     // Limits that are never met may differ.
-    let far = with(
-        &gains,
-        "adaptive.limits",
-        &[("low", "-900.0"), ("high", "950.0"), ("slew", "900.0")],
-    );
-    said(&["certify", &place.file("far.toml", &far)]);
+    proved(&limited(&beyond, "-900.0", "950.0", "900.0"));
 }
 
 #[test]
 fn what_a_design_lacks_or_states_wrongly_is_one_line() {
     let place = Folder::new();
     let (gains, _) = designed(&place);
-    let all = text(&gains);
-    let (without, _) = all.split_once("[plant]").unwrap();
-    let line = refused(&["certify", &place.file("bare.toml", without)]);
-    assert!(line.contains("bare.toml: has no [plant]"), "{line}");
-    let (head, _) = all.split_once("[adaptive]").unwrap();
-    let line = refused(&["certify", &place.file("pi.toml", head)]);
-    assert!(line.contains("pi.toml: has no [adaptive]"), "{line}");
+    let before = |part: &str| gains.split_once(part).unwrap().0.to_owned();
+    let one_sided = with(&gains, "adaptive.limits", &[("low", "0.0")]);
+    for (text, part) in [
+        (before("[plant]"), "own.toml: has no [plant]"),
+        (before("[adaptive]"), "own.toml: has no [adaptive]"),
+        (one_sided, "on both sides of zero"),
+    ] {
+        let path = place.file("own.toml", text);
+        refuses(&format!("certify {path}"), &[part]);
+    }
     for (key, value, what) in [
         ("alpha", "[0.9, 0.8]", "the lower one first"),
         ("alpha", "[0.0, 0.8]", "positive"),
@@ -125,14 +114,10 @@ fn what_a_design_lacks_or_states_wrongly_is_one_line() {
         ("reference_rate", "inf", "a finite number"),
     ] {
         let wrong = with(&gains, "plant", &[(key, value)]);
-        let row = wrong
-            .lines()
-            .position(|l| l.starts_with(&format!("{key} = ")));
-        let line = refused(&["certify", &place.file("wrong.toml", &wrong)]);
-        let place = format!("wrong.toml:{}:1: [plant]: {key}", row.unwrap() + 1);
-        assert!(line.contains(&place) && line.contains(what), "{line}");
+        let is_own = |line: &str| line.starts_with(&format!("{key} = "));
+        let row = wrong.lines().position(is_own).unwrap() + 1;
+        let path = place.file("own.toml", &wrong);
+        let line = format!("own.toml:{row}:1: [plant]: {key}");
+        refuses(&format!("certify {path}"), &[&line, what]);
     }
-    let limits = with(&gains, "adaptive.limits", &[("low", "0.0")]);
-    let line = refused(&["certify", &place.file("one_sided.toml", &limits)]);
-    assert!(line.contains("on both sides of zero"), "{line}");
 }

@@ -1,99 +1,80 @@
 //! Models that promise nothing of a reference, and gains beside a model that they are not of.
 
-use super::{straight, text};
-use crate::shell::{args, bowden, refused, said, Folder};
+use super::{compared, design, designed, LIGHT};
+use crate::compare::row;
+use crate::shell::{bowden, has, refuses, said, straight, text, Folder};
 use serde_json::Value;
 
-/// The straight cable's model as if its record had covered these torques alone.
-fn of_a_stroke(place: &Folder, stroke: [f64; 2]) -> String {
-    let mut table: toml::Table = toml::from_str(&text(&straight(place))).unwrap();
-    let input = table["about"]["ranges"]["input"].as_table_mut().unwrap();
-    input.insert("position".to_owned(), stroke.to_vec().into());
-    place.file("short.toml", toml::to_string(&table).unwrap())
-}
-
-/// Up and down the output would have to pass by more than the stroke moves it.
+/// Up and down the output would have to pass by more than the stroke moves it: the straight cable's
+/// model as if its record had covered these torques alone.
 #[test]
 fn a_stroke_shorter_than_the_hysteresis_has_no_reference_and_no_certificate() {
     let place = Folder::new();
-    let model = of_a_stroke(&place, [-0.5, 0.5]);
-    let asked = ["--rate", "500", "--delay", "0.006"];
-    let report = said(&[["design", &model].as_slice(), &asked].concat());
-    assert!(
-        report.contains("no torque is reached in both directions of motion")
-            && report.contains("record a larger stroke")
-            && report.contains("no certificate"),
-        "{report}"
-    );
-    // Neither of the two that refuse it is recommended.
-    assert!(
-        report.contains("`bowden compare` cannot use this model")
-            && report
-                .contains("`bowden certify` rejects these gains: the file has no [plant] table"),
-        "{report}"
-    );
+    straight(&place);
+    let mut table: toml::Table = place.read("model.toml").parse().unwrap();
+    let input = table["about"]["ranges"]["input"].as_table_mut().unwrap();
+    input.insert("position".to_owned(), vec![-0.5, 0.5].into());
+    let model = place.file("short.toml", toml::to_string(&table).unwrap());
     let gains = place.path("gains.toml");
-    said(&[["design", &model, "--out", &gains].as_slice(), &asked].concat());
-    assert!(refused(&["certify", &gains]).contains("has no [plant]"));
-    let report = said(&[["design", &model, "--json"].as_slice(), &asked].concat());
+    let report = design(&model, "500", "0.006", &format!("--out {gains}"));
+    for words in [
+        "no torque is reached in both directions of motion",
+        "record a larger stroke",
+        "no certificate",
+        // Neither of the two that refuse it is recommended.
+        "`bowden compare` cannot use this model",
+        "`bowden certify` rejects these gains: the file has no [plant] table",
+    ] {
+        has(&report, &[words]);
+    }
+    refuses(&format!("certify {gains}"), &["has no [plant]"]);
+    let report = design(&model, "500", "0.006", "--json");
     let report: Value = serde_json::from_str(&report).unwrap();
     assert!(report["bounds"]["output"].is_null());
     assert!(report["adaptive"]["certificate"].is_null() && report["adaptive"]["plant"].is_null());
     // No reference of the paper's stands in for it.
-    let line = refused(&["compare", "--model", &model, "--inertia", "0.002"]);
-    assert!(
-        line.contains("short.toml") && line.contains("record a larger stroke"),
-        "{line}"
-    );
+    let compare = format!("compare --model {model} --inertia 0.002");
+    refuses(&compare, &["short.toml", "record a larger stroke"]);
 }
 
-/// A cable of which a certificate can be given.
-const STIFF: &str = r#"
-schema = "bowden.model/1"
-mode = "torque"
-channels = []
-[transmission]
-gain = 0.95
-kappa_eta = 1.0
-offset = 0.05
-rho = 0.2
-sigma = 0.6
-n = 1.5
-[about.ranges.input]
-position = [LOW, 40.0]
-velocity = [-40.0, 40.0]
-acceleration = [-170.0, 170.0]
-"#;
+/// A cable of which a certificate can be given, with a record between two torques.
+fn stiff(place: &Folder, kappa_eta: &str, ends: [&str; 2]) -> String {
+    let numbers = "gain = 0.95\noffset = 0.05\nrho = 0.2\nsigma = 0.6\nn = 1.5\n";
+    let ranges = "velocity = [-40.0, 40.0]\nacceleration = [-170.0, 170.0]\n";
+    let model = format!(
+        "schema = \"bowden.model/1\"\nmode = \"torque\"\nchannels = []\n\
+         [transmission]\nkappa_eta = {kappa_eta}\n{numbers}\
+         [about.ranges.input]\nposition = [{}]\n{ranges}",
+        ends.join(", ")
+    );
+    place.file("model.toml", model)
+}
 
 /// A cable that can only be pulled: what `certify` will say is said before.
 #[test]
 fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
     let place = Folder::new();
     let gains = place.path("gains.toml");
-    let report = |low: f64| {
-        let model = place.file("model.toml", STIFF.replace("LOW", &format!("{low:?}")));
-        let asked = ["--rate", "1000", "--delay", "0.0004", "--out", &gains];
-        let report = said(&[["design", &model].as_slice(), &asked].concat());
-        assert!(report.contains("certificate (peak-"), "{report}");
-        report
+    let report = |low: &str| {
+        let model = stiff(&place, "1.0", [low, "40.0"]);
+        design(&model, "1000", "0.0004", &format!("--out {gains}"))
     };
-    let both = report(-40.0);
+    let both = report("-40.0");
     assert!(!both.contains("one side of zero"));
-    assert!(both.contains("certificate (peak-rounded)"), "{both}");
-    assert!(said(&["certify", &gains]).contains("\n  PROVED"));
-    assert!(
-        both.contains("\n        `bowden certify GAINS.toml` proves the bound"),
-        "{both}"
+    let proves = "\n        `bowden certify GAINS.toml` proves the bound";
+    has(&both, &["certificate (peak-rounded)", proves]);
+    has(&said(&format!("certify {gains}")), &["\n  PROVED"]);
+    let one = report("2.0");
+    let rejects = "\n        `bowden certify` rejects these gains: [adaptive]: limits 2 to 40";
+    has(
+        &one,
+        &[
+            "limits are on one side of zero",
+            "certificate (peak-sampled)",
+            rejects,
+        ],
     );
-    let one = report(2.0);
-    assert!(one.contains("limits are on one side of zero"));
-    assert!(one.contains("certificate (peak-sampled)"), "{one}");
-    let line = refused(&["certify", &gains]);
-    assert!(line.contains("on both sides of zero"), "{line}");
-    assert!(
-        one.contains("\n        `bowden certify` rejects these gains: [adaptive]: limits 2 to 40"),
-        "{one}"
-    );
+    refuses(&format!("certify {gains}"), &["on both sides of zero"]);
 }
 
 /// Small limits and a slow loop: `certify` reads the file, and says what is missing.
@@ -101,23 +82,21 @@ fn limits_on_one_side_of_zero_are_told_before_certify_refuses_them() {
 fn gains_that_are_not_proved_are_said_to_be_that_and_certify_names_what_fails() {
     let place = Folder::new();
     let gains = place.path("gains.toml");
-    let model = STIFF.replace("kappa_eta = 1.0", "kappa_eta = 0.1");
-    for (stroke, above) in [("3.0", "no certificate: "), ("6.0", "certificate (peak-")] {
-        let model = model.replace("LOW", &format!("-{stroke}"));
-        let model = model.replace("40.0]\nvelocity", &format!("{stroke}]\nvelocity"));
-        let model = place.file("model.toml", &model);
-        let asked = ["--rate", "50", "--delay", "0.01", "--out", &gains];
-        let report = said(&[["design", &model].as_slice(), &asked].concat());
-        assert!(report.contains(above), "{report}");
-        let last = report.lines().last().unwrap().trim_start();
-        assert!(
-            last.starts_with("`bowden certify GAINS.toml` names the gain or limit that"),
-            "{last}"
+    for (ends, above) in [
+        (["-3.0", "3.0"], "no certificate: "),
+        (["-6.0", "6.0"], "certificate (peak-"),
+    ] {
+        let model = stiff(&place, "0.1", ends);
+        let report = design(&model, "50", "0.01", &format!("--out {gains}"));
+        has(&report, &[above]);
+        let last = report.lines().last().unwrap();
+        has(
+            last,
+            &["`bowden certify GAINS.toml` names the gain or limit that"],
         );
-        let output = bowden(&["certify", &gains]);
+        let output = bowden(&format!("certify {gains}"));
         assert_eq!(output.status.code(), Some(1));
-        let named = String::from_utf8(output.stdout).unwrap();
-        assert!(named.contains("Remedy: "), "{named}");
+        has(text(&output.stdout), &["Remedy: "]);
     }
 }
 
@@ -125,35 +104,25 @@ fn gains_that_are_not_proved_are_said_to_be_that_and_certify_names_what_fails() 
 fn a_rate_that_is_too_low_for_the_law_is_named() {
     let place = Folder::new();
     let model = straight(&place);
-    for asked in [
-        ["--rate", "2", "--delay", "0.001"],
-        ["--rate", "10", "--delay", "0.3"],
-    ] {
-        let report = said(&[["design", &model].as_slice(), &asked].concat());
-        assert!(
-            report.contains("these gains: the file has no [adaptive] table"),
-            "{report}"
+    for (rate, delay) in [("2", "0.001"), ("10", "0.3")] {
+        let report = design(&model, rate, delay, "");
+        has(
+            &report,
+            &[
+                "these gains: the file has no [adaptive] table",
+                "exclude each other",
+            ],
         );
-        let line = report.lines().find(|l| l.contains("exclude each other"));
-        let line = line.unwrap_or_else(|| panic!("{report}"));
-        let (step, most) = line
-            .split_once("at a step of ")
-            .unwrap()
-            .1
-            .split_once(" s, ")
-            .unwrap();
-        let most = most
-            .split_once("at most ")
-            .unwrap()
-            .1
-            .split(' ')
-            .next()
-            .unwrap();
-        let (step, most): (f64, f64) = (step.parse().unwrap(), most.parse().unwrap());
-        assert!(step > most, "{line}");
+        let after = |words: &str| -> f64 {
+            let mut lines = report.lines();
+            let line = lines.find(|l| l.contains("exclude each other")).unwrap();
+            let (_, rest) = line.split_once(words).unwrap();
+            rest.split(' ').next().unwrap().parse().unwrap()
+        };
+        let (step, most) = (after("at a step of "), after("at most "));
+        assert!(step > most, "{report}");
         // What is said to do does.
-        let rate = format!("{}", 1.05 / most);
-        let report = said(&["design", &model, "--rate", &rate, "--delay", "0"]);
+        let report = design(&model, &(1.05 / most).to_string(), "0", "");
         assert!(!report.contains("exclude each other"), "{report}");
     }
 }
@@ -161,82 +130,47 @@ fn a_rate_that_is_too_low_for_the_law_is_named() {
 #[test]
 fn gains_of_another_model_are_told() {
     let place = Folder::new();
-    let (model, gains) = super::designed(&place);
-    let told = |model: &str| {
-        let fixed = args("--seeds 1 --seconds 8 --inertia 0.002 --damping 0.5");
-        said(
-            &[
-                ["compare", "--model", model, "--gains", &gains].as_slice(),
-                &fixed,
-            ]
-            .concat(),
-        )
-    };
-    assert!(!told(&model).contains("designed for model.toml and not"));
-    let other = place.file("other.toml", text(&model));
-    let report = told(&other);
-    assert!(
-        report.contains("gains.toml, designed for model.toml and not for this model"),
-        "{report}"
-    );
+    let (model, gains) = designed(&place);
+    let other = place.file("other.toml", place.read("model.toml"));
+    let words = "gains.toml, designed for model.toml and not for this model";
+    for (model, is_other) in [(model, false), (other, true)] {
+        let files = format!("--model {model} --gains {gains}");
+        let report = said(&format!("compare {files} --seeds 1 --seconds 8 {LIGHT}"));
+        assert_eq!(report.contains(words), is_other, "{report}");
+    }
 }
 
 /// A loop that its slew-rate limit rules has an error that says nothing of its gains.
 #[test]
 fn a_command_that_is_at_its_limit_much_of_the_time_is_told_beside_its_errors() {
     let place = Folder::new();
-    let (model, gains) = super::designed(&place);
-    let fixed = ["--seeds", "1", "--seconds", "9"];
-    let light = super::LIGHT.as_slice();
-    let compared = |gains: &str, more: &[&str]| {
-        let asked = ["compare", "--model", &model, "--gains", gains];
-        said(&[asked.as_slice(), &fixed, light, more].concat())
-    };
-    assert!(!compared(&gains, &[]).contains("The command saturates"));
+    let (model, gains) = designed(&place);
     // PI alone is slowed down.
-    let mut table: toml::Table = toml::from_str(&text(&gains)).unwrap();
+    let mut table: toml::Table = place.read("gains.toml").parse().unwrap();
     let limits = &mut table["pi"].as_table_mut().unwrap()["limits"];
     let limits = limits.as_table_mut().unwrap();
     let designed = limits["slew"].as_float().unwrap();
     limits.insert("slew".to_owned(), (0.02 * designed).into());
     let slow = place.file("slow.toml", toml::to_string(&table).unwrap());
-    let report = compared(&slow, &[]);
+    let page = place.path("page.html");
+    let told = |gains: &str| {
+        let files = format!("--model {model} --gains {gains} --report {page}");
+        said(&format!("compare {files} --seeds 1 --seconds 9 {LIGHT}"))
+    };
+    assert!(!told(&gains).contains("The command saturates"));
+    let report = told(&slow);
     let told = report.lines().find(|l| l.contains("The command saturates"));
     let told = told.unwrap_or_else(|| panic!("{report}"));
-    assert!(
-        told.contains("saturates: pi at its slew-rate limit in "),
-        "{told}"
-    );
+    let at_limit = "saturates: pi at its slew-rate limit in ";
+    has(told, &[at_limit]);
+    has(&place.read("page.html"), &[at_limit]);
     assert!(!told.contains("adaptive"), "{told}");
-    let json: Value = serde_json::from_str(&compared(&slow, &["--json"])).unwrap();
-    let rows = json["rows"].as_array().unwrap();
-    let share = |name: &str| {
-        let row = rows.iter().find(|row| row["controller"] == name).unwrap();
-        row["at_limit"]["slew"].as_f64().unwrap()
-    };
+    let json = compared(&model, &slow, "--seconds 9");
+    let share = |name: &str| row(&json, name)["at_limit"]["slew"].as_f64().unwrap();
     assert!(share("pi") > 0.2 && share("pi") <= 1.0, "{json}");
     assert!(share("adaptive") < 0.2, "{json}");
-    let percent = format!("{:.0} % of the samples", 100.0 * share("pi"));
-    assert!(told.contains(&percent), "{told}");
-    let page = place.path("page.html");
-    compared(&slow, &["--report", &page]);
-    assert!(text(&page).contains("saturates: pi at its slew-rate limit in "));
-}
-
-/// Certificates without a model's cable would be believed to be of it.
-#[test]
-fn certificates_of_the_reference_rig_are_not_asked_for_a_model() {
-    let place = Folder::new();
-    let (model, gains) = super::designed(&place);
-    let line = refused(&["certify", "--gains", &model]);
-    assert!(
-        line.contains("model.toml: this file is a model")
-            && line.contains("`bowden design MODEL.toml"),
-        "{line}"
-    );
-    let line = refused(&["certify", "--gains", &gains]);
-    assert!(
-        line.contains("certify this file with `bowden certify FILE`"),
-        "{line}"
+    has(
+        told,
+        &[&format!("{:.0} % of the samples", 100.0 * share("pi"))],
     );
 }

@@ -1,24 +1,15 @@
 //! The fit within what a compensator can invert.
 
-use crate::hand_over::rig::{files, record, with, Told};
-use crate::shell::{bowden, said, Folder};
+use crate::hand_over::{demo, recipe, Told, STEEP};
+use crate::shell::{has, refuses, Folder};
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::effect::Motion;
 use bowden::model::{ModelState, Sample};
 use bowden_lab::export::ModelFile;
 use bowden_lab::facts::percent;
+use bowden_lab::model::columns::raw_columns;
+use bowden_lab::model::structure::Role;
 use bowden_synth::{Base, Mode, Recipe};
-
-/// The demo's command, as the README has it.
-fn demo(more: &[&str]) -> (ModelFile, serde_json::Value) {
-    let folder = Folder::new();
-    let path = folder.path("model.toml");
-    let mut arguments = vec!["identify", "--json", "--model-out", &path];
-    arguments.extend(more);
-    let json = serde_json::from_str(&said(&arguments)).unwrap();
-    let file = toml::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
-    (file, json)
-}
 
 fn accepted(file: &ModelFile) -> bool {
     let single = Compensator::try_new(&file.model_in::<f32, 8>().unwrap());
@@ -29,18 +20,15 @@ fn accepted(file: &ModelFile) -> bool {
 
 #[test]
 fn the_demo_model_drives_a_compensator_once_it_is_fitted_invertible() {
-    let (free, json) = demo(&[]);
-    assert!(!accepted(&free));
-    let verdict = &json["final"]["feed_forward"];
+    assert!(!accepted(&demo(false).file));
+    let verdict = &demo(false).json["final"]["feed_forward"];
     assert_eq!(verdict["invertible"], false);
     let because = verdict["reason"].as_str().unwrap();
-    assert!(
-        because.starts_with("sigma 2.97 > 0.543 = B/(2·kappa_eta·rho)"),
-        "{because}"
-    );
+    let sigma = "sigma 2.97 > 0.543 = B/(2·kappa_eta·rho)";
+    assert!(because.starts_with(sigma), "{because}");
 
-    let (file, json) = demo(&["--invertible"]);
-    assert!(accepted(&file));
+    let (file, json) = (&demo(true).file, &demo(true).json);
+    assert!(accepted(file));
     assert_eq!(json["final"]["feed_forward"]["invertible"], true);
     assert!(json["final"]["feed_forward"]["reason"].is_null());
     // What was found and what it explains do not depend on what is handed over.
@@ -50,28 +38,23 @@ fn the_demo_model_drives_a_compensator_once_it_is_fitted_invertible() {
     // Turned round and run forwards again it gives what was wanted.
     let model = file.model::<8>().unwrap();
     let compensator = Compensator::try_new(&model).unwrap();
-    let mut inverse = CompensatorState::new();
-    let mut forward = ModelState::new();
+    let (mut inverse, mut forward) = (CompensatorState::new(), ModelState::new());
     for k in 0..2000 {
         let t = f64::from(k) * 1e-3;
         let desired = 6.0 * (4.0 * t).sin() + 2.0 * (17.0 * t).sin();
-        let moving = Motion {
-            velocity: (3.0 * t).cos(),
-            ..Motion::default()
-        };
-        let channels = [moving, Motion::default()];
+        let mut channels = [Motion::default(); 2];
+        channels[0].velocity = (3.0 * t).cos();
         let at = CompensatorInput {
             channels: &channels,
             ..CompensatorInput::new(1e-3, desired)
         };
         let command = compensator.step(&mut inverse, &at).command;
-        let input = Motion {
-            position: command,
-            ..Motion::default()
-        };
         let sample = Sample {
             dt: 1e-3,
-            input,
+            input: Motion {
+                position: command,
+                ..Motion::default()
+            },
             load: command,
             channels: &channels,
         };
@@ -82,33 +65,20 @@ fn the_demo_model_drives_a_compensator_once_it_is_fitted_invertible() {
 }
 
 #[test]
-#[ignore = "slow: bash .ci/run conclusions"]
 fn what_it_costs_is_said_and_a_new_fit_costs_less_than_a_lower_sigma() {
-    let (_, free) = demo(&[]);
-    let (_, within) = demo(&["--invertible"]);
-    let nearest = &free["final"]["feed_forward"]["nearest"]["nrmse"];
-    let fitted = &within["final"]["exported_model"]["nrmse"];
+    let (free, within) = (&demo(false).json["final"], &demo(true).json["final"]);
     for segment in ["fit", "held_out"] {
-        let number = |v: &serde_json::Value| v[segment].as_f64().unwrap();
-        let best = number(&free["final"]["nrmse"]);
-        assert!(number(fitted) > best, "{segment}");
-        assert!(
-            number(fitted) < 0.9 * number(nearest),
-            "{segment}: {fitted} {nearest}"
-        );
+        let nearest = free["feed_forward"]["nearest"]["nrmse"][segment].as_f64();
+        let fitted = within["exported_model"]["nrmse"][segment].as_f64();
+        assert!(fitted > free["nrmse"][segment].as_f64(), "{segment}");
+        assert!(fitted.unwrap() < 0.9 * nearest.unwrap(), "{segment}");
     }
-    let ledger = said(&["identify", "--invertible"]);
-    assert!(ledger.contains("feed-forward: yes"), "{ledger}");
-    assert!(
-        ledger.contains("compared with 0.14 % for the unconstrained model"),
-        "{ledger}"
+    let compared = "compared with 0.14 % for the unconstrained model";
+    has(&demo(true).ledger, &["feed-forward: yes", compared]);
+    has(
+        &demo(false).ledger,
+        &["feed-forward: no, because sigma", "--invertible"],
     );
-    let ledger = said(&["identify"]);
-    assert!(
-        ledger.contains("feed-forward: no, because sigma"),
-        "{ledger}"
-    );
-    assert!(ledger.contains("--invertible"), "{ledger}");
 }
 
 /// Whether the number that follows a name on a line is this one, to its last digit.
@@ -120,60 +90,51 @@ fn is_printed(line: &str, name: &str, value: f64) -> bool {
     (number.parse::<f64>().unwrap() - value).abs() <= half
 }
 
-/// The page has both models, the exported one first.
-fn assert_page(page: &str, errors: [f64; 2], all: &[(&str, f64)]) {
-    let (_, numbers) = page.split_once("<dl class=\"numbers\">").unwrap();
-    let (numbers, _) = numbers.split_once("</dl>").unwrap();
-    let shown: Vec<&str> = errors
-        .map(|share| format!(">{}</data>", percent(share)))
-        .iter()
-        .map(|cell| &numbers[numbers.find(cell.as_str()).unwrap()..])
-        .collect();
-    assert!(shown[0].len() > shown[1].len(), "{numbers}");
-    assert!(page.contains(">unconstrained model: explained<"));
-    let (_, own_table) = page.split_once("Parameters of the exported model").unwrap();
-    let (own_table, other_table) = own_table
-        .split_once("Parameters of the unconstrained model")
-        .unwrap();
-    for (name, value) in all {
-        let cell = format!("<data value=\"{value}\">");
-        assert!(own_table.contains(&cell), "{name} {cell}");
-        assert!(!other_table.contains(&cell), "{name} {cell}");
-    }
+/// What is between two words.
+fn between<'a>(text: &'a str, begin: &str, end: &str) -> &'a str {
+    let (_, rest) = text.split_once(begin).unwrap();
+    rest.split_once(end).unwrap().0
 }
 
 /// "explained … 0.14 %" would be said of another model than the one in the file.
 #[test]
 fn headline_parameters_summary_and_page_are_those_of_the_file() {
-    let folder = Folder::new();
-    let path = |name: &str| folder.path(name);
-    let (model, page) = (path("model.toml"), path("page.html"));
-    let asked = [
-        "identify",
-        "--invertible",
-        "--model-out",
-        &model,
-        "--report",
-        &page,
-    ];
-    let report = said(&asked);
-    let file: ModelFile = toml::from_str(&std::fs::read_to_string(&model).unwrap()).unwrap();
-    let about = file.about.as_ref().unwrap();
-    let (own, other) = (about.nrmse.held_out, about.nrmse.held_out_as_fitted);
+    let told = demo(true);
+    let nrmse = &told.file.about.as_ref().unwrap().nrmse;
+    let (own, other) = (nrmse.held_out, nrmse.held_out_as_fitted);
     assert!(own > 10.0 * other, "{own} {other}");
-
-    let (headline, rest) = report.split_once("\nData").unwrap();
-    let error = format!(
-        "held-out error of {} of the output's standard deviation, compared with {}",
-        percent(own),
-        percent(other)
+    let (headline, _) = told.ledger.split_once("\nData").unwrap();
+    let [ours, theirs] = [own, other].map(percent);
+    let of_output = "of the output's standard deviation, compared with";
+    has(
+        headline,
+        &[&format!("held-out error of {ours} {of_output} {theirs}")],
     );
-    assert!(headline.contains(&error), "{error}: {headline}");
-    let (_, rest) = rest.split_once("\nModel").unwrap();
-    let (parameters, _) = rest.split_once("\nUse it").unwrap();
-    let t = file.transmission.as_ref().unwrap();
-    let viscous = ("viscous@phi_p", file.terms[0].gain);
-    let all = [
+    // What is said to programs is what is said to people.
+    has(headline, &[told.json["summary"].as_str().unwrap()]);
+    let t = told.file.transmission.as_ref().unwrap();
+    let viscous = ("viscous@phi_p", told.file.terms[0].gain);
+    let mut exported = headline.lines();
+    let line = exported.find(|l| l.contains("in the exported model"));
+    assert!(
+        is_printed(line.unwrap(), viscous.0, viscous.1),
+        "{headline}"
+    );
+    let parameters = between(&told.ledger, "\nModel", "\nUse it").lines();
+    let of_numbers = |line: &&str| !line.contains(" = ") && !line.contains("is fixed");
+    let lines: Vec<&str> = parameters.filter(of_numbers).collect();
+    let json = told.json["final"]["exported_model"]["parameters"].as_array();
+
+    // The page has both models, the exported one first.
+    let page = &told.page;
+    let numbers = between(page, "<dl class=\"numbers\">", "</dl>");
+    let [ours, theirs] = [ours, theirs].map(|p| numbers.find(&format!(">{p}</data>")).unwrap());
+    assert!(ours < theirs, "{numbers}");
+    has(page, &[">unconstrained model: explained<"]);
+    let heads = ["exported", "unconstrained"].map(|of| format!("Parameters of the {of} model"));
+    let (_, own_table) = page.split_once(&heads[0]).unwrap();
+    let (own_table, other_table) = own_table.split_once(&heads[1]).unwrap();
+    for (name, value) in [
         ("B", t.gain),
         ("kappa_eta", t.kappa_eta),
         ("T0", t.offset),
@@ -181,112 +142,64 @@ fn headline_parameters_summary_and_page_are_those_of_the_file() {
         ("sigma", t.sigma),
         ("n", t.n),
         viscous,
-    ];
-    let of_numbers = |line: &&str| !line.contains(" = ") && !line.contains("is fixed");
-    let lines: Vec<&str> = parameters.lines().filter(of_numbers).collect();
-    for (name, value) in all {
-        let name = format!(" {name}");
-        let mut named = lines
+    ] {
+        let named = format!(" {name}");
+        let line = lines
             .iter()
-            .filter(|line| line.contains(&format!("{name} ")));
-        let line = named.next().unwrap();
-        assert!(is_printed(line, &name, value), "{line}: {value}");
-    }
-    let line = headline
-        .lines()
-        .find(|l| l.contains("in the exported model"));
-    assert!(
-        is_printed(line.unwrap(), viscous.0, viscous.1),
-        "{headline}"
-    );
-
-    let page = std::fs::read_to_string(&page).unwrap();
-    assert_page(&page, [own, other], &all);
-    // What is said to programs is what is said to people.
-    let asked = ["identify", "--invertible", "--json"];
-    let json: serde_json::Value = serde_json::from_str(&said(&asked)).unwrap();
-    assert!(headline.contains(json["summary"].as_str().unwrap()));
-    let exported = &json["final"]["exported_model"];
-    let parameters = exported["parameters"].as_array().unwrap();
-    for (name, value) in all {
-        let own = parameters.iter().find(|p| p["name"] == name).unwrap();
+            .find(|l| l.contains(&format!("{named} ")))
+            .unwrap();
+        assert!(is_printed(line, &named, value), "{line}: {value}");
+        let cell = format!("<data value=\"{value}\">");
+        assert!(own_table.contains(&cell), "{name} {cell}");
+        assert!(!other_table.contains(&cell), "{name} {cell}");
+        let own = json.unwrap().iter().find(|p| p["name"] == name).unwrap();
         assert!((own["value"].as_f64().unwrap() / value - 1.0).abs() < 1e-12);
-    }
-}
-
-/// Rig with a steep loop: 2·sigma·rho·kappa_eta is 3.4 times its gain.
-const STEEP: Base = Base {
-    gain: 0.95,
-    kappa_eta: 4.0,
-    offset: 0.05,
-    rho: 0.3,
-    sigma: 1.35,
-    n: 1.6,
-};
-
-fn steep(mode: Mode) -> Recipe {
-    // In displacement mode a hysteresis that lags its input has kappa_eta below zero.
-    let kappa_eta = match mode {
-        Mode::Torque => STEEP.kappa_eta,
-        Mode::Displacement => -STEEP.kappa_eta,
-    };
-    Recipe {
-        seed: 12,
-        base: Some(Base { kappa_eta, ..STEEP }),
-        ..Recipe::new(mode)
     }
 }
 
 #[test]
 fn the_constrained_fit_is_on_the_bound_and_at_an_optimum_there() {
-    for mode in [Mode::Torque, Mode::Displacement] {
-        let told = Told::new(record(&steep(mode)), &["bouc-wen"], None);
+    // In displacement mode a hysteresis that lags its input has kappa_eta below zero.
+    for (mode, sign) in [(Mode::Torque, 1.0), (Mode::Displacement, -1.0)] {
+        let base = Base {
+            kappa_eta: sign * STEEP.kappa_eta,
+            ..STEEP
+        };
+        let recipe = Recipe {
+            base: Some(base),
+            ..recipe(mode, 12, &[])
+        };
+        let told = Told::new(&recipe, &["bouc-wen"]);
         assert!(!told.hand_over(false).feed_forward.invertible);
         let hand = told.hand_over(true);
         assert!(accepted(&hand.files[0]));
         let t = hand.files[0].transmission.unwrap();
-        let slope = 2.0 * t.sigma * t.rho * t.kappa_eta.abs();
+        let slope = 2.0 * t.sigma * t.rho * t.kappa_eta.abs() / t.gain.abs();
         // The margin of the bound: seven roundings of f32 fit into it.
-        assert!(
-            (slope / t.gain.abs() - 1.0).abs() < 2e-6,
-            "{mode:?}: {slope} {}",
-            t.gain
-        );
+        assert!((slope - 1.0).abs() < 2e-6, "{mode:?}: {slope}");
 
         // No neighbour on the bound is better: sigma moved by a tenth, rho with it so that
         // the bound is kept, and the gains as they are.
-        let sse = |s: f64| {
+        let sse = |s: f64| -> f64 {
             let solution = &hand.fitted.solution;
             let mut values = solution.values.clone();
             for (free, value) in solution.free.iter().zip(&mut values) {
                 match free.role {
-                    bowden_lab::model::structure::Role::Rho => *value /= s,
-                    bowden_lab::model::structure::Role::Sigma => *value *= s,
+                    Role::Rho => *value /= s,
+                    Role::Sigma => *value *= s,
                     _ => {}
                 }
             }
-            let structure = &solution.structure;
-            let raw = bowden_lab::model::columns::raw_columns(
-                &told.done.data,
-                structure,
-                &solution.free,
-                &values,
-            );
-            let raw = raw.unwrap();
-            let prediction: Vec<f64> = (0..told.data.work_len())
-                .map(|i| {
-                    raw.columns
-                        .iter()
-                        .zip(&solution.gains)
-                        .map(|(c, g)| g * c[i])
-                        .sum()
-                })
-                .collect();
+            let (structure, free) = (&solution.structure, &solution.free);
+            let raw = raw_columns(&told.done.data, structure, free, &values).unwrap();
+            let mut prediction = vec![0.0; told.data.work_len()];
+            for (column, gain) in raw.columns.iter().zip(&solution.gains) {
+                let rows = prediction.iter_mut().enumerate();
+                rows.for_each(|(i, sum)| *sum += gain * column[i]);
+            }
             let prediction = told.data.filtered(&prediction);
-            let rows = &told.done.data.split.fit;
-            rows.iter()
-                .map(|&i| (told.data.target[i] - prediction[i]).powi(2))
-                .sum::<f64>()
+            let error = |&i: &usize| (told.data.target[i] - prediction[i]).powi(2);
+            told.done.data.split.fit.iter().map(error).sum()
         };
         let (here, there) = (sse(1.0), sse(1.1));
         assert!(here < there, "{mode:?}: {here} {there}");
@@ -301,11 +214,10 @@ fn a_rig_whose_own_model_has_an_inverse_is_handed_over_as_it_is() {
         ..STEEP
     };
     let recipe = Recipe {
-        seed: 3,
         base: Some(gentle),
-        ..Recipe::new(Mode::Torque)
+        ..recipe(Mode::Torque, 3, &[])
     };
-    let told = Told::new(record(&recipe), &["bouc-wen"], None);
+    let told = Told::new(&recipe, &["bouc-wen"]);
     let (free, within) = (told.hand_over(false), told.hand_over(true));
     assert!(free.feed_forward.invertible);
     assert_eq!(free.files[0].transmission, within.files[0].transmission);
@@ -315,13 +227,9 @@ fn a_rig_whose_own_model_has_an_inverse_is_handed_over_as_it_is() {
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
 fn no_stage_is_handed_over_as_invertible_and_its_loss_is_said() {
-    let recipe = Recipe {
-        seed: 61,
-        ..Recipe::new(Mode::Displacement)
-    };
-    let told = Told::new(record(&with(recipe, &["lag"])), &["bouc-wen", "lag"], None);
-    let free = told.hand_over(false);
-    let words = free.feed_forward.words();
+    let recipe = recipe(Mode::Displacement, 61, &[("lag", 3.0)]);
+    let told = Told::new(&recipe, &["bouc-wen", "lag"]);
+    let words = told.hand_over(false).feed_forward.words();
     assert!(
         words.starts_with("no, because lag acts on the whole output"),
         "{words}"
@@ -336,22 +244,8 @@ fn no_stage_is_handed_over_as_invertible_and_its_loss_is_said() {
 #[ignore = "slow: bash .ci/run conclusions"]
 fn without_bouc_wen_there_is_nothing_to_invert_and_the_program_says_so() {
     let folder = Folder::new();
-    let path = folder.path("model.toml");
-    let arguments = [
-        "identify",
-        "--baseline",
-        "viscous",
-        "--invertible",
-        "--model-out",
-        &path,
-    ];
-    let output = bowden(&arguments);
-    assert_eq!(output.status.code(), Some(2));
-    let line = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        line.contains("--invertible") && line.contains("bouc-wen"),
-        "{line}"
-    );
-    assert_eq!(line.trim_end().lines().count(), 1);
-    assert!(files(folder.root()).is_empty());
+    let model = folder.path("model.toml");
+    let asked = format!("identify --baseline viscous --invertible --model-out {model}");
+    refuses(&asked, &["--invertible", "bouc-wen"]);
+    assert!(folder.names().is_empty());
 }

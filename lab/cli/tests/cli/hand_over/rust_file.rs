@@ -3,19 +3,19 @@
 #![allow(clippy::approx_constant)]
 
 use crate::compiler::{compiled_and_run, module};
-use crate::shell::{args, said, Folder};
-use bowden::effect::{Effect, Range, Viscous, CATALOGUE};
-use bowden_lab::export::{About, ModelFile, ShapeFile, Span, TermFile};
+use crate::hand_over::{recipe, Told};
+use crate::sentences::files::Rows;
+use crate::shell::{has, json, refuses, said, Folder};
+use bowden::effect::{Effect, Motion, Range, Viscous, CATALOGUE};
+use bowden_lab::export::{About, ModelFile, ShapeFile, Span, TermFile, TransmissionFile};
+use bowden_synth::Mode;
 
 /// A model of one effect, with all that can stand in its file.
 fn of_effect(effect: &Effect<f64>, transmission: bool) -> ModelFile {
-    let shapes = effect.info().shapes.iter().enumerate();
-    let shapes: Vec<ShapeFile> = shapes
-        .map(|(index, info)| ShapeFile {
-            name: info.name.to_owned(),
-            value: effect.shape(index).unwrap(),
-        })
-        .collect();
+    let shape = |(index, info): (usize, &bowden::effect::ShapeInfo)| ShapeFile {
+        name: info.name.to_owned(),
+        value: effect.shape(index).unwrap(),
+    };
     let span = Span {
         position: [-1.5, 1.5],
         velocity: [-3.0, 3.0],
@@ -23,14 +23,16 @@ fn of_effect(effect: &Effect<f64>, transmission: bool) -> ModelFile {
     };
     let about = About {
         rates_time_constant_s: 0.01,
-        ranges: [("input".to_owned(), span), ("phi_p".to_owned(), span)].into(),
+        ranges: ["input", "phi_p"]
+            .map(|name| (name.to_owned(), span))
+            .into(),
         ..About::default()
     };
     ModelFile {
         schema: "bowden.model/1".to_owned(),
         mode: "torque".to_owned(),
         channels: vec!["phi_p".to_owned()],
-        transmission: transmission.then_some(bowden_lab::export::TransmissionFile {
+        transmission: transmission.then_some(TransmissionFile {
             gain: 0.95,
             kappa_eta: 2.29,
             offset: 0.05,
@@ -44,41 +46,61 @@ fn of_effect(effect: &Effect<f64>, transmission: bool) -> ModelFile {
             origin: 0.0,
             // Near pi: no lint may take it for that.
             gain: 3.1415,
-            shapes,
+            shapes: effect.info().shapes.iter().enumerate().map(shape).collect(),
         }],
         about: Some(about),
     }
 }
 
-/// All effects of the catalogue; their shapes have four digits each.
-fn all() -> Vec<Effect<f64>> {
-    let effect = |name: &str| {
-        let tried = (0..3).find_map(|n| Effect::try_from_name(name, &vec![0.3183; n]).ok());
-        let effect: Effect<f64> = tried.unwrap();
-        let ranges = effect.info().shapes.iter().map(|s| s.range);
-        assert!(ranges
-            .into_iter()
-            .all(|r| matches!(r, Range::Finite | Range::Positive)));
-        effect
-    };
-    CATALOGUE.iter().map(|info| effect(info.name)).collect()
+/// The effect of that name; its shapes have four digits each.
+fn effect(name: &str) -> Effect<f64> {
+    let mut tried = (0..3).map(|n| Effect::try_from_name(name, &vec![0.3183; n]));
+    let effect = tried.find_map(Result::ok).unwrap();
+    let mut ranges = effect.info().shapes.iter().map(|s| s.range);
+    assert!(ranges.all(|r| matches!(r, Range::Finite | Range::Positive)));
+    effect
 }
 
 #[test]
 fn model_rs_compiles_without_warnings_for_every_effect_and_is_that_model() {
-    let effects = all();
-    assert_eq!(effects.len(), 50);
-    let mut program = String::from("#![deny(warnings)]\n");
-    let mut calls = String::new();
-    let mut expected = String::new();
-    for (index, effect) in effects.iter().enumerate() {
+    let mut files: Vec<ModelFile> = CATALOGUE
+        .iter()
+        .enumerate()
         // With and without a transmission: the imports differ.
-        let file = of_effect(effect, index % 2 == 0);
+        .map(|(index, info)| of_effect(&effect(info.name), index % 2 == 0))
+        .collect();
+    assert_eq!(files.len(), 50);
+    let mut none = of_effect(&Viscous.into(), true);
+    none.terms.clear();
+    files.push(none.clone());
+    none.about = None;
+    files.push(none);
+    // One term more than a fixed model holds is a model of any effect.
+    for terms in [16, 17] {
+        let mut file = of_effect(&Viscous.into(), true);
+        let coulomb = of_effect(&effect("coulomb"), true).terms[0].clone();
+        file.terms.extend(vec![coulomb; terms - 1]);
+        files.push(file);
+    }
+    let (mut program, mut calls) = (String::from("#![deny(warnings)]\n"), String::new());
+    let mut expected = String::new();
+    for (index, file) in files.iter().enumerate() {
         let text = file.rust().unwrap();
-        assert!(!text.contains("try_from_name"), "{text}");
+        let is_fixed = (1..=16).contains(&file.terms.len());
+        assert_eq!(text.contains("FixedModel"), is_fixed, "{text}");
+        assert!(!is_fixed || !text.contains("try_from_name"), "{text}");
         program += &module(&format!("model_{index}"), &text);
-        calls += &format!("    println!(\"{{:?}}\", model_{index}::model().unwrap());\n");
-        expected += &format!("{:?}\n", file.model_in::<f32, 1>().unwrap());
+        let (printed, model) = match file.terms.len() {
+            0 => ("m", format!("{:?}", file.model_in::<f32, 0>().unwrap())),
+            1 => ("m", format!("{:?}", file.model_in::<f32, 1>().unwrap())),
+            _ => {
+                let model = file.model_in::<f32, 17>().unwrap();
+                ("m.terms()", format!("{:?}", model.terms()))
+            }
+        };
+        calls += &format!("let m = model_{index}::model().unwrap();\n");
+        calls += &format!("println!(\"{{:?}}\", {printed});\n");
+        expected += &format!("{model}\n");
     }
     program += &format!("fn main() {{\n{calls}}}\n");
     let folder = Folder::new();
@@ -86,51 +108,11 @@ fn model_rs_compiles_without_warnings_for_every_effect_and_is_that_model() {
 }
 
 #[test]
-fn a_model_of_more_terms_than_a_fixed_one_holds_is_written_as_one_of_any_effect() {
-    let most = 16;
-    for terms in [most, most + 1] {
-        let mut file = of_effect(&Viscous.into(), true);
-        let coulomb = of_effect(&Effect::try_from_name("coulomb", &[0.3]).unwrap(), true);
-        file.terms.extend(vec![coulomb.terms[0].clone(); terms - 1]);
-        let text = file.rust().unwrap();
-        assert_eq!(text.contains("FixedModel"), terms == most);
-        let program = module("a", &text)
-            + "fn main() { println!(\"{:?}\", a::model().map(|m| m.terms().to_vec())); }";
-        let folder = Folder::new();
-        let model = file.model_in::<f32, 17>().unwrap();
-        assert_eq!(model.terms().len(), terms);
-        let expected = format!("Ok({:?})\n", model.terms());
-        assert_eq!(compiled_and_run(&program, folder.root()), expected);
-    }
-}
-
-#[test]
-fn a_model_of_nothing_but_a_transmission_compiles_too() {
-    let mut file = of_effect(&Viscous.into(), true);
-    file.terms.clear();
-    let with_ranges = file.rust().unwrap();
-    file.about = None;
-    let plain = file.rust().unwrap();
-    let program = module("a", &with_ranges)
-        + &module("b", &plain)
-        + "fn main() { assert_eq!(a::model(), b::model()); println!(\"{:?}\", b::model()); }";
-    let folder = Folder::new();
-    let expected = format!("Ok({:?})\n", file.model_in::<f32, 0>().unwrap());
-    assert_eq!(compiled_and_run(&program, folder.root()), expected);
-}
-
-#[test]
 fn the_written_model_with_its_rates_and_ranges_makes_a_feed_forward() {
     let folder = Folder::new();
-    let path = folder.root().join("model.rs");
-    said(&[
-        "identify",
-        "--invertible",
-        "--model-out",
-        &path.display().to_string(),
-    ]);
-    let text = std::fs::read_to_string(&path).unwrap();
-    let program = module("model", &text)
+    let path = folder.path("model.rs");
+    said(&format!("identify --invertible --model-out {path}"));
+    let program = module("model", &folder.read("model.rs"))
         + r#"
 use bowden::control::{Compensator, CompensatorInput, CompensatorState};
 use bowden::signal::{Rates, RatesState};
@@ -138,8 +120,7 @@ use bowden::signal::{Rates, RatesState};
 fn main() -> Result<(), bowden::Error> {
     let compensator = Compensator::try_new(&model::model()?)?.with_ranges(&model::ranges())?;
     let rates = Rates::try_new(model::RATES_TIME_CONSTANT)?;
-    let mut past = RatesState::new();
-    let mut state = CompensatorState::new();
+    let (mut past, mut state) = (RatesState::new(), CompensatorState::new());
     let mut command = 0.0;
     for k in 0..1000 {
         let phi_p = rates.step(&mut past, 0.001 * k as f32, 0.001).motion;
@@ -159,26 +140,16 @@ fn main() -> Result<(), bowden::Error> {
 #[test]
 fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
     let folder = Folder::new();
-    let path = |name: &str| folder.path(name);
-    let csv = path("bench.csv");
-    said(&args(&format!(
-        "generate --mode torque --effect coulomb:20 --seed 4 --out {csv}"
-    )));
-    for name in ["model.rs", "model.toml"] {
-        said(&[
-            "identify",
-            &csv,
-            "--baseline",
-            "bouc-wen,coulomb@phi_p",
-            "--model-out",
-            &path(name),
-        ]);
-        let text = std::fs::read_to_string(path(name)).unwrap();
-        let place = folder.root().display().to_string();
-        assert!(!text.contains(&place), "{text}");
-        assert!(text.contains("bench.csv"), "{text}");
+    let recipe = "--mode torque --effect coulomb:20 --seed 4";
+    let csv = folder.record("bench.csv", recipe);
+    let asked = format!("identify {csv} --baseline bouc-wen,coulomb@phi_p");
+    for name in ["model.toml", "model.rs"] {
+        said(&format!("{asked} --model-out {}", folder.path(name)));
+        let text = folder.read(name);
+        assert!(!text.contains(&folder.path("")), "{text}");
+        has(&text, &["bench.csv"]);
     }
-    let text = std::fs::read_to_string(path("model.rs")).unwrap();
+    let text = folder.read("model.rs");
     for words in [
         "Input [N·m], output [N·m], torque mode.",
         "Channels, in the order of `Sample::channels`: 0 phi_p [rad], 1 phi_d [rad].",
@@ -196,71 +167,93 @@ fn model_rs_says_what_its_numbers_mean_and_holds_no_path() {
         "phi_p: position [rad], velocity [rad/s], acceleration [rad/s²]",
         "RATES_TIME_CONSTANT: f32 = ",
     ] {
-        assert!(text.contains(words), "{words} is not in\n{text}");
+        has(&text, &[words]);
     }
     // What the record does not show is named, as in the report.
-    let json: serde_json::Value = serde_json::from_str(&said(&[
-        "identify",
-        &csv,
-        "--baseline",
-        "bouc-wen,coulomb@phi_p",
-        "--json",
-    ]))
-    .unwrap();
-    let parameters = json["final"]["parameters"].as_array().unwrap();
-    for parameter in parameters {
+    let json = json(&format!("{asked} --json"));
+    for parameter in json["final"]["parameters"].as_array().unwrap() {
         let name = parameter["name"].as_str().unwrap();
         let refused = parameter["identified"] == false && !name.starts_with("eta0");
-        assert_eq!(
-            text.contains(&format!("Not identified: {name} (")),
-            refused,
-            "{name}"
-        );
+        let words = format!("Not identified: {name} (");
+        assert_eq!(text.contains(&words), refused, "{name}");
     }
 }
 
 #[test]
 fn the_ranges_are_those_that_the_fit_has_seen() {
-    use crate::hand_over::rig::{record, Told};
-    use bowden::effect::Motion;
-    use bowden_synth::{Mode, Recipe};
-    let recipe = Recipe {
-        seed: 4,
-        ..Recipe::new(Mode::Torque)
-    };
-    let told = Told::new(record(&recipe), &["bouc-wen", "viscous@phi_d"], None);
+    let told = Told::new(
+        &recipe(Mode::Torque, 4, &[]),
+        &["bouc-wen", "viscous@phi_d"],
+    );
     let about = told.hand_over(false).files[0].about.clone().unwrap();
     let names: Vec<&str> = about.ranges.keys().map(String::as_str).collect();
     // phi_p is read by no term: `with_ranges` would refuse it.
     assert_eq!(names, ["input", "phi_d"]);
-    let phi_d = told
-        .data
-        .channels
-        .iter()
-        .find(|c| c.name == "phi_d")
-        .unwrap();
-    let (first, last) = (
-        told.data.split.fit[0],
-        told.data.split.selection[told.data.split.selection.len() - 1],
-    );
-    let stride = told.data.stride;
-    let seen = &phi_d.motion[first * stride..(last + 1) * stride];
-    let ends = |motion: &[Motion<f64>], of: fn(&Motion<f64>) -> f64| {
-        let values = || motion.iter().map(of);
+    let data = &told.data;
+    let phi_d = data.channels.iter().find(|c| c.name == "phi_d").unwrap();
+    let (first, last) = (data.split.fit[0], *data.split.selection.last().unwrap());
+    let seen = &phi_d.motion[first * data.stride..(last + 1) * data.stride];
+    let ends = |motion: &[Motion<f64>]| {
+        let of = |of: fn(&Motion<f64>) -> f64| {
+            let values = || motion.iter().map(of);
+            [
+                values().fold(f64::INFINITY, f64::min),
+                values().fold(f64::NEG_INFINITY, f64::max),
+            ]
+        };
         [
-            values().fold(f64::INFINITY, f64::min),
-            values().fold(f64::NEG_INFINITY, f64::max),
+            of(|m| m.position),
+            of(|m| m.velocity),
+            of(|m| m.acceleration),
         ]
     };
     let told = &about.ranges["phi_d"];
-    assert_eq!(told.position, ends(seen, |m| m.position));
-    assert_eq!(told.velocity, ends(seen, |m| m.velocity));
-    assert_eq!(told.acceleration, ends(seen, |m| m.acceleration));
+    let told = [told.position, told.velocity, told.acceleration];
+    assert_eq!(told, ends(seen));
     // The rest of the record goes further: ranges over all of it would be others.
-    let whole = &phi_d.motion;
-    assert!(
-        ends(whole, |m| m.position) != told.position
-            || ends(whole, |m| m.velocity) != told.velocity
-            || ends(whole, |m| m.acceleration) != told.acceleration
+    assert_ne!(told, ends(&phi_d.motion));
+}
+
+/// A spring across the sum of two angles, on three tones: whoever runs the model has to know how to
+/// compute the sum.
+#[test]
+fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
+    let row = |k: i32| {
+        let t = 1e-3 * f64::from(k);
+        let (proximal, slip) = (
+            (3.1 * t).sin(),
+            0.2 * (1.3 * t).sin() + 0.1 * (7.7 * t).sin(),
+        );
+        let input = 4.0 * (5.3 * t).sin();
+        let output = 0.8 * input + 6.0 * slip + 0.01 * (f64::from(k) * 12.9898).sin();
+        vec![t, input, output, proximal, slip - proximal]
+    };
+    let header = "t [s],tau_i [N*m],tau_o [N*m],proximal [rad],distal [rad]";
+    let folder = Folder::new();
+    let record = Rows::new(header, (0..12_000).map(row)).write(&folder, "rig.csv");
+    let stretch = "--channel stretch=proximal+distal";
+    let baseline = "--max-terms 0 --baseline gain,stiffness-linear@stretch";
+    for name in ["rig.toml", "rig.rs"] {
+        let out = folder.path(name);
+        said(&format!(
+            "identify {record} {baseline} --model-out {out} {stretch}"
+        ));
+    }
+    let defined = "[about.definitions]\nstretch = \"proximal + distal\"\n";
+    has(&folder.read("rig.toml"), &[defined]);
+    let listed = "`Sample::channels`: 0 stretch = proximal + distal [rad].";
+    has(&folder.read("rig.rs"), &[listed]);
+    let model = folder.path("rig.toml");
+    let listed = "#define RIG_CHANNEL_STRETCH 0 /* stretch = proximal + distal [rad] */";
+    has(&said(&format!("export --c {model}")), &[listed]);
+    // A record without the channel is told how to get it.
+    let validate = format!("validate {model} {record}");
+    refuses(
+        &validate,
+        &[
+            "channel `stretch` (fitted as proximal + distal), but the record has no such channel; ",
+            "give its column with --channel stretch=COL",
+        ],
     );
+    said(&format!("{validate} {stretch}"));
 }

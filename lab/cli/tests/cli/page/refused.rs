@@ -1,179 +1,105 @@
-//! What cannot be drawn is refused before anything is read.
+//! What cannot be written or drawn is refused before anything is read.
 
-use crate::shell::{args, bowden, example, refused, said, Folder};
+use crate::shell::{bowden_in, example, refused, refuses_all, Folder};
 
-#[test]
-fn a_page_that_cannot_be_written_is_refused_before_the_record_is_read() {
-    let folder = Folder::new();
-    // A record that does not exist would be complained of first if it were read first.
-    let missing = folder.path("later.csv");
-    let model = folder.path("model.toml");
-    said(&[
-        "identify",
-        &example("straight.csv"),
-        "--max-terms",
-        "0",
-        "--model-out",
-        &model,
-    ]);
-    let before = folder.names();
-    for option in ["--report", "--plot"] {
-        for place in ["no-such-folder/page.html", "."] {
-            let path = folder.path(place);
-            for command in [
-                vec!["identify", &missing],
-                vec!["validate", &model, &missing],
-            ] {
-                let line = refused(&[command.as_slice(), &[option, &path]].concat());
-                assert!(line.contains(option), "{line}");
-            }
-        }
-        let line = refused(&["validate", &model, &missing, option, &model]);
-        assert!(line.contains("would overwrite"), "{line}");
-    }
-    let nowhere = folder.path("no-such-folder/page.html");
-    let line = refused(&args(&format!(
-        "compare --seconds 3600 --seeds 1000 --report {nowhere}"
-    )));
-    assert!(line.contains("--report"), "{line}");
-    let same = folder.path("same.html");
-    for other in ["--plot", "--trace"] {
-        let line = refused(&["identify", &missing, "--report", &same, other, &same]);
-        assert!(
-            line.contains("another option also writes this file"),
-            "{line}"
-        );
-    }
-    assert_eq!(folder.names(), before);
-}
-
-/// Two outputs in one file, or an output over what is read: nothing is computed, and every file
-/// keeps its bytes. Another spelling of a path is the same file.
+/// Two outputs in one file, an output over what is read, or one that has no place: nothing is
+/// computed, and every file keeps its bytes. Another spelling of a path is the same file.
 #[test]
 fn no_output_takes_the_place_of_another_file_of_the_command() {
     let folder = Folder::new();
-    let (missing, record) = (folder.path("later.csv"), folder.path("record.csv"));
-    let (model, out) = (folder.path("model.toml"), folder.path("out.html"));
-    let vector = folder.path("model.vector.csv");
-    let name = folder.root().file_name().unwrap().to_str().unwrap();
-    let other = folder.path(&format!("../{name}/out.html"));
-    std::fs::write(&out, "before").unwrap();
-    std::fs::copy(example("straight.csv"), &record).unwrap();
-    let names = folder.names();
-    let both = "another option also writes this file";
-    let over = "would overwrite";
-    let short = ["compare", "--seconds", "8", "--seeds", "1"];
-    for (arguments, part) in [
-        (
-            [&short[..], &["--report", &out, "--trace", &out]].concat(),
-            both,
-        ),
-        (
-            [&short[..], &["--report", &out, "--trace", &other]].concat(),
-            both,
-        ),
-        (vec!["compare", "--gains", &out, "--trace", &other], over),
-        (
-            vec![
-                "identify",
-                &missing,
-                "--model-out",
-                &model,
-                "--trace",
-                &vector,
-            ],
-            both,
-        ),
-        (
-            vec![
-                "validate", &missing, &missing, "--trace", &out, "--plot", &other,
-            ],
-            both,
-        ),
-        (vec!["plan", &record, "--out", &record], over),
-    ] {
-        let line = refused(&arguments);
-        assert!(line.contains(part), "{line}");
-        assert_eq!(folder.read("out.html"), "before");
-        assert_eq!(folder.names(), names);
+    folder.file("out.html", "before");
+    std::fs::copy(example("straight.csv"), folder.path("record.csv")).unwrap();
+    for taken in ["taken.toml", "gains-2.toml", "model.vector.csv"] {
+        std::fs::create_dir(folder.path(taken)).unwrap();
     }
-    let line = refused(&[short.as_slice(), &["--trace", &folder.path("no/trace.csv")]].concat());
-    assert!(line.contains("--trace"), "{line}");
+    let names = folder.names();
+    let own = folder.root().file_name().unwrap().to_str().unwrap();
+    let both = "another option also writes this file";
+    // A record that does not exist, later.csv, would be complained of first if it were read first.
+    refuses_all(
+        &folder,
+        &format!(
+            "compare --report out.html --trace out.html => {both}
+            compare --report out.html --trace ../{own}/out.html => {both}
+            compare --gains out.html --trace ../{own}/out.html => would overwrite
+            compare --seconds 3600 --seeds 1000 --report no/page.html => --report
+            compare --seconds 3600 --seeds 1000 --trace no/trace.csv => --trace
+            identify later.csv --model-out m.toml --trace m.vector.csv => {both}
+            identify later.csv --report same.html --plot same.html => {both}
+            identify later.csv --report same.html --trace same.html => {both}
+            identify later.csv --model-out no/m.toml => --model-out
+            identify later.csv --model-out taken.toml => --model-out
+            identify later.csv --model-out model.toml => --model-out
+            identify later.csv last.csv --per-file gains --model-out gains.toml => --model-out
+            identify later.csv --report no/page.html => --report
+            identify later.csv --report . => --report
+            identify later.csv --plot no/page.svg => --plot
+            identify later.csv --plot . => --plot
+            identify later.csv --trace no/t.csv => --trace
+            identify later.csv --trace . => --trace
+            validate out.html later.csv --trace record.csv --plot record.csv => {both}
+            validate out.html later.csv --report no/page.html => --report
+            validate out.html later.csv --report out.html => would overwrite
+            validate out.html later.csv --plot no/page.svg => --plot
+            validate out.html later.csv --plot out.html => would overwrite
+            validate out.html later.csv --trace no/t.csv => --trace
+            validate out.html later.csv --trace out.html => would overwrite
+            plan record.csv --out record.csv => would overwrite"
+        ),
+    );
+    // A record that is read and is bad leaves what was there.
+    let bad = folder.file("bad.csv", "t,x,f\n0,0,0\n0.1,zero,1\n");
+    let out = folder.path("out.html");
+    refused(&format!("identify {bad} --report {out}"));
+    assert_eq!(folder.read("out.html"), "before");
+    std::fs::remove_file(bad).unwrap();
+    assert_eq!(folder.names(), names);
 }
 
 /// A model or a record that is named by mistake stays, and a name says what is in its file.
 #[test]
 fn a_name_of_another_form_is_refused_before_anything_is_read() {
     let folder = Folder::new();
-    let missing = folder.path("later.csv");
-    let short = ["compare", "--seconds", "8", "--seeds", "1"];
-    let names = [
-        "kept.toml",
-        "f.png",
-        "r.csv",
-        "p.html",
-        "s.svg",
-        "c.csv.gz",
-        "none",
-    ];
-    for name in names {
-        std::fs::write(folder.path(name), "before").unwrap();
-    }
+    let names = "kept.toml f.png r.csv p.html s.svg c.csv.gz none";
+    names
+        .split(' ')
+        .for_each(|name| drop(folder.file(name, "before")));
     let before = folder.names();
     for (option, fits, expected) in [
         ("--report", "p.html", ".html or .htm"),
         ("--plot", "s.svg", ".svg"),
         ("--trace", "r.csv", ".csv"),
     ] {
-        for name in names.into_iter().filter(|name| *name != fits) {
-            let path = folder.path(name);
-            let mut commands = vec![
-                vec!["identify", &missing, option, &path],
-                vec!["validate", &missing, &missing, option, &path],
-            ];
+        for name in names.split(' ').filter(|name| *name != fits) {
+            let output = format!("{option} {name}");
+            let line = format!("bowden: {output}: the file name must end in {expected}");
+            let mut table = format!(
+                "identify later.csv {output} => {line}
+                validate later.csv later.csv {output} => {line}"
+            );
             if option != "--plot" {
-                commands.push([&short[..], &[option, &path]].concat());
+                table += &format!("\ncompare {output} => {line}");
             }
-            for command in commands {
-                assert_eq!(
-                    refused(&command),
-                    format!("bowden: {option} {path}: the file name must end in {expected}")
-                );
-            }
+            refuses_all(&folder, &table);
             assert_eq!(folder.read(name), "before");
         }
         // Of a name that fits the record is what is complained of.
-        let line = refused(&["identify", &missing, option, &folder.path(fits)]);
-        assert!(line.contains("later.csv"), "{line}");
+        refuses_all(
+            &folder,
+            &format!("identify later.csv {option} {fits} => later.csv"),
+        );
     }
     for name in ["P.HTM", "p.Html"] {
-        let line = refused(&["identify", &missing, "--report", &folder.path(name)]);
-        assert!(line.contains("later.csv"), "{line}");
+        refuses_all(
+            &folder,
+            &format!("identify later.csv --report {name} => later.csv"),
+        );
     }
     assert_eq!(folder.names(), before);
-}
-
-#[test]
-fn a_bad_record_leaves_the_page_that_was_there() {
-    let folder = Folder::new();
-    let (bad, page) = (folder.path("bad.csv"), folder.path("page.html"));
-    std::fs::write(&bad, "t,x,f\n0,0,0\n0.1,zero,1\n").unwrap();
-    std::fs::write(&page, "before").unwrap();
-    refused(&["identify", &bad, "--report", &page]);
-    assert_eq!(folder.read("page.html"), "before");
-    assert_eq!(folder.names(), ["bad.csv", "page.html"]);
-}
-
-#[test]
-fn an_unknown_figure_and_a_figure_without_a_file_are_bad_use() {
-    let record = example("straight.csv");
-    let out = Folder::new().path("f.svg");
-    for arguments in [
-        vec!["identify", &record, "--plot", &out, "--figure", "pie"],
-        vec!["identify", &record, "--figure", "loop"],
-    ] {
-        let output = bowden(&arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    // An unknown figure and a figure without a file are bad use.
+    for options in ["--plot f.svg --figure pie", "--figure loop"] {
+        let output = bowden_in(&folder, &format!("identify r.csv {options}"));
+        assert_eq!(output.status.code(), Some(2), "{options}");
         assert!(output.stdout.is_empty());
     }
 }

@@ -5,44 +5,24 @@
 
 mod findings;
 
+use crate::shell::{example, said};
 use bowden::effect::{Dimension, CATALOGUE};
 use bowden_lab::model::mechanism::Mechanism;
 use std::fmt::Write as _;
-use std::path::PathBuf;
-use std::process::Command;
 
 /// The subcommands, in the order of `bowden --help`.
-const SUBCOMMANDS: [&str; 11] = [
-    "identify",
-    "validate",
-    "design",
-    "compare",
-    "certify",
-    "power",
-    "plan",
-    "export",
-    "generate",
-    "completions",
-    "man",
-];
+const SUBCOMMANDS: &str =
+    "identify validate design compare certify power plan export generate completions man";
 
 /// What `bowden help …` prints, without blanks at the ends of lines.
-fn help(topic: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_bowden"))
-        .arg("help")
-        .args(topic)
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
-    let text = String::from_utf8(output.stdout).unwrap();
+fn help(topic: &str) -> String {
+    let text = said(&format!("help {topic}"));
     let lines: Vec<&str> = text.trim().lines().map(str::trim_end).collect();
     lines.join("\n")
 }
 
 fn check(name: &str, page: &str) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../docs/reference")
-        .join(name);
+    let path = example(&format!("../../docs/reference/{name}"));
     if std::env::var_os("BOWDEN_WRITE_PAGES").is_some() {
         std::fs::write(&path, page).unwrap();
     }
@@ -58,7 +38,7 @@ fn the_glossary_is_what_the_program_prints() {
     let page = format!(
         "# Glossary\n\nThe output of `bowden help terms`. What to do after a verdict: \
          [verdicts](../howto/verdicts.md).\n\n```text\n{}\n```\n",
-        help(&["terms"])
+        help("terms")
     );
     check("glossary.md", &page);
 }
@@ -67,12 +47,10 @@ fn the_glossary_is_what_the_program_prints() {
 fn the_page_of_the_commands_is_what_the_program_prints() {
     let mut page =
         String::from("# Commands\n\nThe output of `bowden help` and of `bowden help COMMAND`.\n");
-    let mut add = |title: &str, topic: &[&str]| {
-        write!(page, "\n## {title}\n\n```text\n{}\n```\n", help(topic)).unwrap();
-    };
-    add("bowden", &[]);
-    for name in SUBCOMMANDS {
-        add(&format!("bowden {name}"), &[name]);
+    for name in std::iter::once("").chain(SUBCOMMANDS.split(' ')) {
+        let title = format!("bowden {name}");
+        let (title, text) = (title.trim(), help(name));
+        write!(page, "\n## {title}\n\n```text\n{text}\n```\n").unwrap();
     }
     check("cli.md", &page);
 }
@@ -97,11 +75,10 @@ fn unit(of: Dimension) -> String {
         n => format!("{name}^{n}"),
     });
     let all = parts.collect::<Vec<_>>().join(" · ");
-    if all.is_empty() {
-        "1".to_owned()
-    } else {
-        all
-    }
+    [all, "1".to_owned()]
+        .into_iter()
+        .find(|unit| !unit.is_empty())
+        .unwrap_or_default()
 }
 
 #[test]
@@ -112,17 +89,12 @@ fn the_page_of_the_effects_is_the_catalogue() {
          | effect | family | mechanism | regressor | unit | memory |\n|---|---|---|---|---|---|\n",
     );
     for info in CATALOGUE {
-        writeln!(
-            page,
-            "| `{}` | {} | {} | {} | {} | {} |",
-            info.name,
-            info.family,
-            Mechanism::of(info.name, info.family).name(),
-            info.formula.replace('|', "\\|"),
-            unit(info.dimension),
-            if info.memory { "yes" } else { "" },
-        )
-        .unwrap();
+        let (name, family) = (info.name, info.family);
+        let mechanism = Mechanism::of(name, family).name();
+        let (formula, unit) = (info.formula.replace('|', "\\|"), unit(info.dimension));
+        let memory = if info.memory { "yes" } else { "" };
+        let row = format!("`{name}` | {family} | {mechanism} | {formula} | {unit} | {memory}");
+        writeln!(page, "| {row} |").unwrap();
     }
     check("effects.md", &page);
 }

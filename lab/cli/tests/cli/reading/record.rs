@@ -2,7 +2,6 @@
 //! to the bit wherever it is computed; `files/make.py` writes it by other people's writers.
 
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
 
 /// Input, output and load, at 256 Hz.
 pub const NAMES: [&str; 4] = ["t", "x_mm", "f_N", "load_N"];
@@ -41,19 +40,17 @@ pub fn csv() -> String {
 
 /// As loggers write JSON: one record a line.
 pub fn ndjson() -> String {
-    let field = |(name, value): (&&str, &f64)| format!("{name:?}:{value}");
-    let record = |row: &[f64; 4]| {
+    let field = |(name, value): (&str, f64)| format!("{name:?}:{value}");
+    let record = |row: [f64; 4]| {
         NAMES
-            .iter()
+            .into_iter()
             .zip(row)
             .map(field)
             .collect::<Vec<_>>()
             .join(",")
     };
-    rows()
-        .iter()
-        .map(|row| format!("{{{}}}\n", record(row)))
-        .collect()
+    let rows = rows().into_iter();
+    rows.map(|row| format!("{{{}}}\n", record(row))).collect()
 }
 
 /// As a spreadsheet in German exports it: a preamble, units below the names, decimal commas.
@@ -81,7 +78,9 @@ pub fn gzip(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// A file that SciPy or PyArrow has written.
-pub fn foreign(name: &str) -> PathBuf {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/reading/files");
-    Path::new(folder).join(name)
+pub fn foreign(name: &str) -> String {
+    format!(
+        "{}/tests/cli/reading/files/{name}",
+        env!("CARGO_MANIFEST_DIR")
+    )
 }

@@ -1,9 +1,11 @@
-//! Records to be closed.
+//! Records to be closed and checked, and what the program says of them.
 
-use crate::shell::{bowden, Folder};
+use crate::shell::{has, json, said, Folder};
 use serde_json::Value;
+use std::sync::OnceLock;
 
 /// Rows of a record: time first.
+#[derive(Clone)]
 pub struct Rows {
     pub header: String,
     pub rows: Vec<Vec<f64>>,
@@ -16,18 +18,23 @@ pub const TAU_O: usize = 2;
 pub const PHI_P: usize = 3;
 
 impl Rows {
-    /// A record of the program's generator.
-    pub fn generated(arguments: &[&str]) -> Self {
-        let output = bowden(&[&["generate"], arguments].concat());
-        assert!(output.status.success(), "{output:?}");
-        let text = String::from_utf8(output.stdout).unwrap();
-        let mut lines = text.lines();
-        let header = lines.next().unwrap().to_owned();
-        let rows = lines.map(|line| line.split(',').map(|c| c.parse().unwrap()).collect());
+    pub fn new(header: &str, rows: impl IntoIterator<Item = Vec<f64>>) -> Self {
         Self {
-            rows: rows.collect(),
-            header,
+            header: header.to_owned(),
+            rows: rows.into_iter().collect(),
         }
+    }
+
+    /// Of a record as text.
+    pub fn parsed(text: &str) -> Self {
+        let (header, rows) = text.split_once('\n').unwrap();
+        let row = |line: &str| line.split(',').map(|c| c.parse().unwrap()).collect();
+        Self::new(header, rows.lines().map(row))
+    }
+
+    /// A record of the program's generator.
+    pub fn generated(options: &str) -> Self {
+        Self::parsed(&said(&format!("generate {options}")))
     }
 
     /// Replaces a column by a function of the row's index and its old values.
@@ -35,6 +42,30 @@ impl Rows {
         for (i, row) in self.rows.iter_mut().enumerate() {
             row[column] = of(i, row);
         }
+    }
+
+    pub fn column(&self, column: usize) -> Vec<f64> {
+        self.rows.iter().map(|row| row[column]).collect()
+    }
+
+    /// The difference of a column over so many rows to either side of a row, for each row.
+    pub fn differences(&self, column: usize, to_either_side: usize) -> Vec<f64> {
+        let all = self.column(column);
+        let at = |i: usize| all[i.min(all.len() - 1)];
+        let difference = |i: usize| at(i + to_either_side) - at(i.saturating_sub(to_either_side));
+        (0..all.len()).map(difference).collect()
+    }
+
+    /// The record in so many parts of one length, each of which begins at zero.
+    pub fn parts(&self, number: usize) -> Vec<Self> {
+        let length = self.rows.len() / number;
+        let part = |rows: &[Vec<f64>]| {
+            let mut part = Self::new(&self.header, rows.to_vec());
+            let begin = rows[0][T];
+            part.set(T, |_, row| row[T] - begin);
+            part
+        };
+        self.rows.chunks_exact(length).map(part).collect()
     }
 
     pub fn seconds(&self) -> f64 {
@@ -48,62 +79,61 @@ impl Rows {
             text += "\n";
             text += &cells.join(",");
         }
-        let path = folder.root().join(name);
-        std::fs::write(&path, text).unwrap();
-        path.display().to_string()
+        folder.file(name, text)
     }
 
     /// What `identify` says of it, for people and for programs.
-    pub fn close(&self, options: &[&str]) -> Closed {
+    pub fn close(&self, options: &str) -> Closed {
         let folder = Folder::new();
         let path = self.write(&folder, "record.csv");
-        Closed {
-            _folder: Some(folder),
-            ..Closed::of(&[&[path.as_str()], options].concat())
-        }
+        Closed::within(folder, &format!("{path} {options}"))
     }
 }
 
 pub struct Closed {
-    arguments: Vec<String>,
+    asked: String,
     pub json: Value,
-    /// The record, as long as the program may have to read it again.
-    _folder: Option<Folder>,
-}
-
-fn close(arguments: &[&str], more: &[&str]) -> String {
-    let output = bowden(&[&["identify"], arguments, more].concat());
-    assert!(output.status.success(), "{output:?}");
-    String::from_utf8(output.stdout).unwrap()
+    /// The records, as long as the program may have to read them again.
+    _folder: Folder,
 }
 
 impl Closed {
-    pub fn of(arguments: &[&str]) -> Self {
-        let json: Value = serde_json::from_str(&close(arguments, &["--json"])).unwrap();
+    pub fn of(asked: &str) -> Self {
+        Self::within(Folder::new(), asked)
+    }
+
+    /// Of records in a folder that is kept.
+    pub fn within(folder: Folder, asked: &str) -> Self {
+        let json = json(&format!("identify {asked} --json"));
         println!("{}: {}", json["verdict"], json["summary"]);
         Self {
-            arguments: arguments.iter().map(|a| (*a).to_owned()).collect(),
+            asked: asked.to_owned(),
             json,
-            _folder: None,
+            _folder: folder,
         }
+    }
+
+    /// Of several records, each with its name.
+    pub fn files<'a>(files: impl IntoIterator<Item = (&'a str, Rows)>, options: &str) -> Self {
+        let folder = Folder::new();
+        let files = files.into_iter();
+        let paths: Vec<String> = files.map(|(name, own)| own.write(&folder, name)).collect();
+        Self::within(folder, &format!("{} {options}", paths.join(" ")))
     }
 
     /// What is printed for people; a second run.
     pub fn text(&self) -> String {
-        let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
-        let text = close(&arguments, &[]);
-        // Errors come before the terms. The headline names the mechanisms, with which the sentence may
-        // begin.
+        let text = said(&format!("identify {}", self.asked));
+        // Errors come before the terms. The headline names the mechanisms, with which the sentence
+        // may begin.
         let findings = self.json["findings"].as_array().unwrap().iter();
         let errors = findings.filter(|finding| finding["severity"] == "error");
-        let errors = errors.map(|error| error["words"].as_str().unwrap());
-        let errors = errors.collect::<Vec<_>>().join(" ");
+        let errors: Vec<_> = errors.map(|e| e["words"].as_str().unwrap()).collect();
+        let errors = errors.join(" ");
         let rest = self.sentence().strip_prefix(&errors).unwrap().trim_start();
         let told = rest.strip_prefix("The baseline model lacks ");
         let told = told.and_then(|rest| Some(&rest[rest.find(". With ")? + 2..]));
-        for part in [&errors, told.unwrap_or(rest)] {
-            assert!(text.contains(part), "{part} is not in {text}");
-        }
+        has(&text, &[&errors, told.unwrap_or(rest)]);
         text
     }
 
@@ -115,30 +145,35 @@ impl Closed {
         self.json["summary"].as_str().unwrap()
     }
 
+    /// A number of the JSON, by its place in it.
+    pub fn number(&self, place: &str) -> f64 {
+        self.json.pointer(place).unwrap().as_f64().unwrap()
+    }
+
     /// The evidence of the finding with this code.
     pub fn finding(&self, code: &str) -> Option<&Value> {
         evidence(&self.json, code)
     }
 
-    /// A share of the held-out output's variance.
-    pub fn explains(&self, what: &str) -> f64 {
-        self.json["explains"][what].as_f64().unwrap()
+    pub fn names(&self) -> Vec<&str> {
+        let rounds = self.json["terms"].as_array().unwrap().iter();
+        rounds.map(|r| r["effect"].as_str().unwrap()).collect()
     }
 
-    pub fn names(&self) -> Vec<&str> {
-        let rounds = self.json["terms"].as_array().unwrap();
-        rounds
-            .iter()
-            .map(|r| r["effect"].as_str().unwrap())
-            .collect()
+    pub fn notes(&self) -> Vec<&str> {
+        let notes = self.json["notes"].as_array().unwrap().iter();
+        notes.map(|note| note.as_str().unwrap()).collect()
     }
 
     /// Asserts that the sentence holds each of the texts.
+    #[track_caller]
     pub fn says(&self, texts: &[&str]) {
-        let told = self.sentence();
-        for text in texts {
-            assert!(told.contains(text), "{text:?} is not in: {told}");
-        }
+        has(self.sentence(), texts);
+    }
+
+    #[track_caller]
+    pub fn does_not_say(&self, text: &str) {
+        assert!(!self.sentence().contains(text), "{}", self.sentence());
     }
 }
 
@@ -150,6 +185,37 @@ pub fn evidence<'a>(json: &'a Value, code: &str) -> Option<&'a Value> {
     Some(found.get("evidence").unwrap_or(&Value::Null))
 }
 
+/// The model of a record, to be checked on others.
+pub struct Bench {
+    /// The text of its file.
+    pub model: String,
+}
+
+impl Bench {
+    pub fn of(first: &Rows) -> Self {
+        let folder = Folder::new();
+        let (first, model) = (first.write(&folder, "first.csv"), folder.path("model.toml"));
+        said(&format!("identify {first} --model-out {model}"));
+        let model = folder.read("model.toml");
+        Self { model }
+    }
+
+    /// Of the sound spring.
+    pub fn of_spring() -> &'static Self {
+        static BENCH: OnceLock<Bench> = OnceLock::new();
+        BENCH.get_or_init(|| Self::of(&spring()))
+    }
+
+    pub fn check(&self, next: &Rows) -> Value {
+        let folder = Folder::new();
+        let record = next.write(&folder, "next.csv");
+        let model = folder.file("model.toml", &self.model);
+        let report = json(&format!("validate {model} {record} --json"));
+        println!("{}: {}", report["verdict"], report["summary"]);
+        report
+    }
+}
+
 /// Pseudo-random, uniform in −1…1: the fraction of a large sine (an old trick of shaders).
 pub fn uniform(row: usize) -> f64 {
     2.0 * ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0) - 1.0
@@ -159,4 +225,55 @@ pub fn uniform(row: usize) -> f64 {
 pub fn noise(row: usize) -> f64 {
     let sum: f64 = (0..12).map(|k| uniform(12 * row + k)).sum();
     sum / 2.0
+}
+
+/// Forty seconds at 500 Hz of noise behind four low-passes of that corner \[Hz\].
+pub fn low_passed(corner: f64, seed: usize) -> impl Iterator<Item = f64> {
+    let share = 1.0 - (-std::f64::consts::TAU * corner / 500.0).exp();
+    let mut stages = [0.0; 4];
+    (0..20_000).map(move |i| {
+        let mut signal = uniform(i + 1000 * seed);
+        for stage in &mut stages {
+            *stage += share * (signal - *stage);
+            signal = *stage;
+        }
+        100.0 * signal
+    })
+}
+
+/// Bouc-Wen of fixed shape, integrated along straight lines.
+#[derive(Default)]
+pub struct Hysteresis {
+    pub before: f64,
+    pub z: f64,
+}
+
+impl Hysteresis {
+    pub fn step(&mut self, to: f64, substeps: u8) -> f64 {
+        let dx = (to - self.before) / f64::from(substeps);
+        for _ in 0..substeps {
+            self.z += 0.9 * (dx - 0.8 * dx.abs() * self.z - 0.2 * dx * self.z.abs());
+        }
+        self.before = to;
+        self.z
+    }
+}
+
+/// 24 seconds of a spring with a hysteresis, moved by tones.
+pub fn spring() -> Rows {
+    spring_of(1.0, |_| 0.0)
+}
+
+/// The same moved by so many times the tones; the clamp has slipped by `slipped` at a time.
+pub fn spring_of(times: f64, slipped: impl Fn(f64) -> f64) -> Rows {
+    let mut hysteresis = Hysteresis::default();
+    let row = |i: usize| {
+        let t = i as f64 / 500.0;
+        let tones = 2.0 * (5.3 * t).sin() + 1.1 * (2.1 * t + 0.4).sin() + 0.6 * (9.7 * t).sin();
+        let x = times * tones;
+        let own = x - slipped(t);
+        let z = hysteresis.step(own, 10);
+        vec![t, x, 1.5 * own + 4.0 * z + 0.02 * noise(i)]
+    };
+    Rows::new("t,x [mm],f [N]", (0..12_000).map(row))
 }

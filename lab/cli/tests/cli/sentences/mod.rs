@@ -5,19 +5,10 @@
 //! shares code with the fit.
 
 mod apart;
-mod ballast;
-mod beyond;
-mod carries_over;
-mod changed;
-mod channels;
 mod checked;
-mod coarse;
-mod compare;
-mod files;
-mod gap;
-mod motions;
+pub mod files;
+mod held_out;
 mod no_model;
 mod on_a_chip;
-mod otherwise;
-mod reading;
-mod table;
+mod rigs;
+mod told;

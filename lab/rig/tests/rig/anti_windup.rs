@@ -1,8 +1,9 @@
 //! Anti-windup of a PI on the rig.
 
-use super::DT;
 use bowden::control::{AntiWindup, Limits, Pid, PidInput, PidSettings, PidState};
 use bowden_rig::{Reference, Rig, RigConfig};
+
+const DT: f64 = 1e-3;
 
 /// RMS error of the true torque \[N·m\] on the reference rig after its start.
 fn on_the_rig(anti_windup: AntiWindup<f64>, slew: f64) -> f64 {
