@@ -184,6 +184,32 @@ fn swapped_torques_are_asked_about() {
 }
 
 #[test]
+fn a_swapped_force_is_asked_about_and_an_output_that_lags_is_not() {
+    let t = times(2000);
+    let x = tones(&t);
+    let said = |header: &str, kappa_eta: f64| {
+        let f = spring(&x, |_, x, eta| 2.0 * x + kappa_eta * eta + 0.4 * x.abs());
+        let columns: [&[f64]; 3] = [&t, &noisy(&x, 0.002, 3), &noisy(&f, 0.005, 4)];
+        let facts = closed(&[csv(header, &columns)]);
+        has(&facts, |f| matches!(f, Finding::LoggedDifferently(_)))
+    };
+    assert!(said("t,f,x", 3.0));
+    assert!(!said("t,x,f", 3.0));
+    // As of a stage that follows its voltage late.
+    assert!(!said("t,x,f", -1.0));
+}
+
+#[test]
+fn a_slow_stroke_in_one_direction_is_answered_at_the_default_cut_off() {
+    let t = times(2000);
+    let x: Vec<f64> = t.iter().map(|t| 0.5 * t).collect();
+    let f = spring(&x, |_, x, eta| 2.0 * x + 3.0 * eta);
+    let columns: [&[f64]; 3] = [&t, &noisy(&x, 0.002, 5), &noisy(&f, 0.01, 6)];
+    let facts = closed(&[csv("t,x,f", &columns)]);
+    assert_eq!(facts.verdict, Verdict::UnderExcited);
+}
+
+#[test]
 fn a_thermometer_that_only_tells_which_file_it_is_is_no_cause() {
     let t = times(800);
     let x: Vec<f64> = t
