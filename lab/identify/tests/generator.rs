@@ -10,12 +10,8 @@ const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 fn rms_about_mean(values: &[f64]) -> f64 {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
-    (values
-        .iter()
-        .map(|value| (value - mean).powi(2))
-        .sum::<f64>()
-        / count)
-        .sqrt()
+    let squares = values.iter().map(|value| (value - mean).powi(2));
+    (squares.sum::<f64>() / count).sqrt()
 }
 
 /// Short enough to try every effect.
@@ -45,23 +41,16 @@ fn the_same_seed_gives_the_same_bytes_and_another_seed_another_record() {
         };
         let text = generate(&recipe).unwrap().to_csv();
         assert_eq!(text, generate(&recipe).unwrap().to_csv());
-        assert_ne!(
-            text,
-            generate(&Recipe { seed: 2, ..recipe }).unwrap().to_csv()
-        );
+        let other = Recipe { seed: 2, ..recipe };
+        assert_ne!(text, generate(&other).unwrap().to_csv());
     }
 }
 
 #[test]
 fn the_header_names_the_columns_with_their_units() {
     let header = |recipe: &Recipe| {
-        generate(recipe)
-            .unwrap()
-            .to_csv()
-            .lines()
-            .next()
-            .unwrap()
-            .to_owned()
+        let text = generate(recipe).unwrap().to_csv();
+        text.lines().next().unwrap().to_owned()
     };
     assert_eq!(
         header(&short(Mode::Torque)),
@@ -152,50 +141,32 @@ fn several_effects_and_channels_can_be_asked_for() {
 
 #[test]
 fn a_recipe_that_cannot_be_followed_is_refused() {
-    let plain = || short(Mode::Torque);
-    let planted = |effect: &str, strength: f64| Recipe {
-        effects: vec![Planted {
-            strength,
-            ..Planted::new(effect)
-        }],
-        ..plain()
+    let set = |change: &dyn Fn(&mut Recipe)| {
+        let mut recipe = short(Mode::Torque);
+        change(&mut recipe);
+        recipe
     };
+    let planted = |effect: &str, strength: f64| {
+        set(&|r| {
+            r.effects = vec![Planted {
+                strength,
+                ..Planted::new(effect)
+            }];
+        })
+    };
+    let base = generate(&short(Mode::Torque)).unwrap().truth.base;
     for recipe in [
         planted("warp", 3.0),
         planted("viscous", f64::NAN),
         planted("viscous", 0.0),
         planted("delay", 1e5),
-        Recipe {
-            seconds: f64::INFINITY,
-            ..plain()
-        },
-        Recipe {
-            rate: 0.0,
-            ..plain()
-        },
-        Recipe {
-            noise: -1.0,
-            ..plain()
-        },
-        Recipe {
-            colour: 1.0,
-            ..plain()
-        },
-        Recipe {
-            seconds: 1e6,
-            ..plain()
-        },
-        Recipe {
-            bias: f64::NAN,
-            ..plain()
-        },
-        Recipe {
-            base: Some(Base {
-                sigma: 0.2,
-                ..generate(&plain()).unwrap().truth.base
-            }),
-            ..plain()
-        },
+        set(&|r| r.seconds = f64::INFINITY),
+        set(&|r| r.rate = 0.0),
+        set(&|r| r.noise = -1.0),
+        set(&|r| r.colour = 1.0),
+        set(&|r| r.seconds = 1e6),
+        set(&|r| r.bias = f64::NAN),
+        set(&|r| r.base = Some(Base { sigma: 0.2, ..base })),
     ] {
         let line = generate(&recipe).unwrap_err().to_string();
         assert!(!line.contains('\n') && !line.is_empty());
@@ -292,23 +263,15 @@ fn holds_rest_and_the_input_fills_its_range() {
                 ..perfect(mode)
             })
             .unwrap();
-            let peak = record
-                .truth
-                .input
-                .iter()
-                .fold(0.0_f64, |peak, u| peak.max(u.abs()));
+            let input = &record.truth.input;
+            let peak = input.iter().fold(0.0_f64, |peak, u| peak.max(u.abs()));
             let amplitude = Recipe::new(mode).amplitude;
             assert!(
                 peak <= 1.001 * amplitude && peak > 0.7 * amplitude,
                 "{peak}"
             );
-            let still = record
-                .truth
-                .input
-                .windows(2)
-                .filter(|pair| pair[0] == pair[1])
-                .count();
-            assert_eq!(still > 3000, holds);
+            let still = input.windows(2).filter(|pair| pair[0] == pair[1]);
+            assert_eq!(still.count() > 3000, holds);
         }
     }
 }

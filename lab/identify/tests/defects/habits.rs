@@ -2,11 +2,6 @@
 
 use super::*;
 
-fn names(ledger: &Ledger) -> Vec<&str> {
-    let rounds = ledger.rounds.iter();
-    rounds.map(|r| r.candidate.term.effect.name()).collect()
-}
-
 /// A spring, a hysteresis and a damper that is not declared, moved for 20 s: at rest before
 /// and after that for so many seconds.
 fn moved(before: f64, after: f64) -> Record {

@@ -42,11 +42,23 @@ impl Cells {
         }
     }
 
-    fn read(&self) -> Record {
+    fn text(&self) -> String {
         let row = |row: &Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
         let rows: Vec<String> = self.rows.iter().map(row).collect();
-        let text = format!("{}\n{}\n", self.header, rows.join("\n"));
+        format!("{}\n{}\n", self.header, rows.join("\n"))
+    }
+
+    fn read(&self) -> Record {
+        let text = self.text();
         parse(text.as_bytes(), "r.csv", &Options::default()).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// A column of the record, changed.
+    fn with(column: usize, change: impl Fn(f64) -> f64) -> Self {
+        let mut cells = Self::of(&recipe());
+        let rows = cells.rows.iter_mut();
+        rows.for_each(|row| row[column] = change(row[column]));
+        cells
     }
 
     /// The sensor repeats the value of row `from` until row `to`.
@@ -102,6 +114,11 @@ fn noise(row: usize) -> f64 {
     2.0 * ((row as f64 * 12.9898).sin() * 43758.5453).rem_euclid(1.0) - 1.0
 }
 
+fn names(ledger: &Ledger) -> Vec<&str> {
+    let rounds = ledger.rounds.iter();
+    rounds.map(|r| r.candidate.term.effect.name()).collect()
+}
+
 fn verdict_of(data: &Prepared, ledger: &Ledger) -> Verdict {
     verdict(data, ledger, &FinalFit::new(data, ledger))
 }
@@ -122,39 +139,20 @@ fn a_sound_record_has_no_defects_whatever_its_sensors() {
                 seconds: 12.0,
                 ..Recipe::new(mode)
             };
+            let with = |set: fn(&mut Recipe)| {
+                let mut recipe = plain.clone();
+                set(&mut recipe);
+                recipe
+            };
             for recipe in [
                 plain.clone(),
-                Recipe {
-                    holds: true,
-                    ..plain.clone()
-                },
-                Recipe {
-                    holds: true,
-                    noise: 0.0,
-                    ..plain.clone()
-                },
-                Recipe {
-                    noise: 0.0,
-                    quantisation: 0.0,
-                    resolution: 0.0,
-                    ..plain.clone()
-                },
+                with(|r| r.holds = true),
+                with(|r| (r.holds, r.noise) = (true, 0.0)),
+                with(|r| (r.noise, r.quantisation, r.resolution) = (0.0, 0.0, 0.0)),
                 // Ten bits over the range.
-                Recipe {
-                    noise: 0.0,
-                    quantisation: 0.04,
-                    ..plain.clone()
-                },
-                Recipe {
-                    effects: vec![Planted::new("coulomb")],
-                    noise: 0.01,
-                    ..plain.clone()
-                },
-                Recipe {
-                    effects: vec![Planted::new("backlash")],
-                    rate: 100.0,
-                    ..plain.clone()
-                },
+                with(|r| (r.noise, r.quantisation) = (0.0, 0.04)),
+                with(|r| (r.noise, r.effects) = (0.01, vec![Planted::new("coulomb")])),
+                with(|r| (r.rate, r.effects) = (100.0, vec![Planted::new("backlash")])),
             ] {
                 let record = Cells::of(&recipe).read();
                 assert_eq!(record.defects, [], "{recipe:?}");
@@ -176,80 +174,51 @@ fn dry_friction_and_a_switched_input_are_flat_by_nature() {
     assert_eq!(flat.read().defects, []);
 }
 
+/// Also where it dies before the end.
 #[test]
 fn a_stuck_sensor_is_named_with_its_lines() {
     for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
-        let mut cells = Cells::of(&recipe());
-        cells.freeze(column, 3000, 3199);
-        cells.freeze(column, 6100, 6400);
-        let record = cells.read();
-        let defect = only(&record);
-        assert_named(defect, DefectKind::Stuck, name);
-        assert_eq!(
-            defect.ranges,
-            [[line(3000), line(3199)], [line(6100), line(6400)]]
-        );
-    }
-}
-
-#[test]
-fn a_sensor_that_dies_before_the_end_is_stuck() {
-    for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
-        let mut cells = Cells::of(&recipe());
-        let last = cells.rows.len() - 1;
-        cells.freeze(column, 9000, last);
-        let record = cells.read();
-        assert_named(only(&record), DefectKind::Stuck, name);
-        assert_eq!(only(&record).ranges, [[line(9000), line(last)]]);
+        for ranges in [&[[3000, 3199], [6100, 6400]][..], &[[9000, 9999]]] {
+            let mut cells = Cells::of(&recipe());
+            assert_eq!(cells.rows.len(), 10_000);
+            for &[from, to] in ranges {
+                cells.freeze(column, from, to);
+            }
+            let record = cells.read();
+            assert_named(only(&record), DefectKind::Stuck, name);
+            let lines: Vec<_> = ranges.iter().map(|own| own.map(line)).collect();
+            assert_eq!(only(&record).ranges, lines);
+        }
     }
 }
 
 #[test]
 fn mild_clipping_is_a_defect_and_heavy_clipping_a_refusal() {
-    let mut cells = Cells::of(&recipe());
-    let (_, high) = cells.low_and_high(TAU_O);
-    let cut = |cells: &mut Cells, level: f64| {
-        cells
-            .rows
-            .iter_mut()
-            .for_each(|row| row[TAU_O] = row[TAU_O].min(level));
-    };
-    let above = |cells: &Cells, level: f64| {
-        cells.rows.iter().filter(|row| row[TAU_O] > level).count() as f64
-    };
+    let sound = Cells::of(&recipe());
+    let (_, high) = sound.low_and_high(TAU_O);
     let level = high - 0.8;
+    let cut = |level: f64| Cells::with(TAU_O, |value| value.min(level));
+    let samples = sound.rows.len() as f64;
     // What stands above the level is what is clipped, but for noise at its edges.
-    let lost = above(&cells, level) / cells.rows.len() as f64;
+    let above = sound.rows.iter().filter(|row| row[TAU_O] > level);
+    let lost = above.count() as f64 / samples;
     assert!(lost > 0.002 && lost < 0.05, "{lost}");
-    let mut heavy = Cells::of(&recipe());
-    cut(&mut cells, level);
+    let cells = cut(level);
     let record = cells.read();
     let defect = only(&record);
     assert_named(defect, DefectKind::Clipping, "tau_o");
     let named: usize = defect.ranges.iter().map(|[from, to]| to - from + 1).sum();
-    let named = named as f64 / cells.rows.len() as f64;
+    let named = named as f64 / samples;
     assert!(named > 0.7 * lost && named <= lost, "{named} of {lost}");
     for [from, to] in &defect.ranges {
-        assert!(cells.rows[from - 2..=to - 2]
-            .iter()
-            .all(|row| row[TAU_O] == level));
+        let mut rows = cells.rows[from - 2..=to - 2].iter();
+        assert!(rows.all(|row| row[TAU_O] == level));
     }
 
-    let level = 0.5 * high;
-    cut(&mut heavy, level);
-    let rows: Vec<String> = heavy
-        .rows
-        .iter()
-        .map(|r| format!("{},{},{}", r[0], r[1], r[2]))
-        .collect();
-    let text = format!("t,tau_i,tau_o\n{}\n", rows.join("\n"));
+    let text = cut(0.5 * high).text();
     let error = parse(text.as_bytes(), "r.csv", &Options::default()).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains("column `tau_o`: clipped: flat at"),
-        "{error}"
-    );
+    let line = error.to_string();
+    assert!(line.contains("column `tau_o`: clipped: flat at"), "{line}");
 }
 
 #[test]
@@ -305,13 +274,9 @@ fn stamps_that_jitter_are_told_from_samples_that_lie_unevenly() {
 fn coarse_steps_are_a_defect_only_where_they_matter() {
     for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
         let counted = |counts: f64| {
-            let mut cells = Cells::of(&recipe());
-            let (low, high) = cells.low_and_high(column);
+            let (low, high) = Cells::of(&recipe()).low_and_high(column);
             let step = (high - low) / counts;
-            for row in &mut cells.rows {
-                row[column] = (row[column] / step).round() * step;
-            }
-            cells.read()
+            Cells::with(column, |value| (value / step).round() * step).read()
         };
         let record = counted(10.0);
         assert_named(only(&record), DefectKind::Quantisation, name);
@@ -346,13 +311,6 @@ fn a_short_dropout_of_the_output_is_left_out_and_changes_no_name() {
     cells.freeze(TAU_O, 2500, 2650);
     cells.freeze(TAU_O, 8800, 8900);
     let (data, ledger) = closed(&cells.read());
-    let names = |ledger: &Ledger| -> Vec<&str> {
-        ledger
-            .rounds
-            .iter()
-            .map(|r| r.candidate.term.effect.name())
-            .collect()
-    };
     assert_eq!(names(&ledger), names(&sound.1));
     assert_eq!(verdict_of(&data, &ledger), verdict_of(&sound.0, &sound.1));
     // On the rows that are left both models are as good: the dropped stretches, bridged,
@@ -397,17 +355,11 @@ fn counter_rotating(frozen: Option<(usize, usize)>) -> Record {
     if let Some((from, to)) = frozen {
         cells.freeze(added + 1, from, to);
     }
-    let text: Vec<String> = std::iter::once(cells.header.clone())
-        .chain(cells.rows.iter().map(|row| {
-            let cells: Vec<String> = row.iter().map(f64::to_string).collect();
-            cells.join(",")
-        }))
-        .collect();
     let options = Options {
         channels: vec![("stretch".into(), "a+b".into())],
         ..Options::default()
     };
-    parse(text.join("\n").as_bytes(), "r.csv", &options).unwrap()
+    parse(cells.text().as_bytes(), "r.csv", &options).unwrap()
 }
 
 #[test]

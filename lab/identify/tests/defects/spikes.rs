@@ -5,10 +5,6 @@ use super::*;
 #[test]
 fn spikes_are_named_with_their_lines_and_change_no_name() {
     let sound = closed(&Cells::of(&recipe()).read());
-    let names = |ledger: &Ledger| -> Vec<&str> {
-        let rounds = ledger.rounds.iter();
-        rounds.map(|r| r.candidate.term.effect.name()).collect()
-    };
     for (column, name) in [(TAU_I, "tau_i"), (TAU_O, "tau_o"), (PHI_P, "phi_p")] {
         let mut cells = Cells::of(&recipe());
         let (low, high) = cells.low_and_high(column);

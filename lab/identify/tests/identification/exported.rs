@@ -143,57 +143,73 @@ fn a_model_that_the_loop_found_runs_the_same_in_firmware() {
     assert_the_same(&made.data, last, 0.0);
 }
 
-#[test]
-fn in_torque_mode_with_a_channel_and_a_delay_the_model_runs_the_same_in_firmware() {
-    let made = made(Mode::Torque, &["viscous", "delay"]);
-    let solution = told(&made, &["bouc-wen", "viscous@phi_p", "delay"]);
-    assert!(contributes(&solution, "viscous") && contributes(&solution, "delay"));
-    assert!(matches!(
-        solution.structure.terms[0].source,
-        Source::Channel(_)
-    ));
-    assert_the_same(&made.data, &solution, 0.0);
-}
+/// Mode, what is planted, what is declared, and which gains count.
+type Case = (
+    Mode,
+    &'static [&'static str],
+    &'static [&'static str],
+    &'static [&'static str],
+);
 
-#[test]
-fn friction_under_the_transmitted_load_runs_the_same_in_firmware() {
+const CASES: [Case; 5] = [
+    // A channel and a delay.
+    (
+        Mode::Torque,
+        &["viscous", "delay"],
+        &["bouc-wen", "viscous@phi_p", "delay"],
+        &["viscous", "delay"],
+    ),
     // In torque mode the load is the input, else the record's own column.
-    for (mode, name) in [
-        (Mode::Torque, "load-friction@phi_p"),
-        (Mode::Displacement, "load-friction"),
-    ] {
-        let made = made(mode, &["load-friction"]);
-        let solution = told(&made, &["bouc-wen", name]);
-        assert!(contributes(&solution, "load-friction"));
-        assert_the_same(&made.data, &solution, 0.0);
-    }
-}
-
-#[test]
-fn effects_of_the_hysteresis_and_a_fitted_origin_run_the_same_in_firmware() {
-    let made = made(
+    (
+        Mode::Torque,
+        &["load-friction"],
+        &["bouc-wen", "load-friction@phi_p"],
+        &["load-friction"],
+    ),
+    (
+        Mode::Displacement,
+        &["load-friction"],
+        &["bouc-wen", "load-friction"],
+        &["load-friction"],
+    ),
+    // Effects of the hysteresis, and a fitted origin.
+    (
         Mode::Torque,
         &["rate", "stiffness-quadratic", "degradation"],
-    );
-    let list = [
-        "bouc-wen",
-        "rate@tau_i",
-        "stiffness-quadratic@phi_p",
-        "degradation",
-        "asymmetry-eta",
-    ];
-    let solution = told(&made, &list);
-    assert!(solution.structure.terms.iter().any(|t| t.origin != 0.0));
-    assert!(contributes(&solution, "rate") && contributes(&solution, "degradation"));
-    assert_the_same(&made.data, &solution, 0.0);
-}
+        &[
+            "bouc-wen",
+            "rate@tau_i",
+            "stiffness-quadratic@phi_p",
+            "degradation",
+            "asymmetry-eta",
+        ],
+        &["rate", "degradation"],
+    ),
+    (
+        Mode::Displacement,
+        &["viscous"],
+        &["viscous", "stiffness", "offset", "coulomb", "lag"],
+        &[],
+    ),
+];
 
 #[test]
-fn a_model_without_hysteresis_runs_the_same_in_firmware() {
-    let made = made(Mode::Displacement, &["viscous"]);
-    let solution = told(&made, &["viscous", "stiffness", "offset", "coulomb", "lag"]);
-    assert!(!solution.structure.hysteresis);
-    assert_the_same(&made.data, &solution, 0.0);
+fn what_was_declared_runs_the_same_in_firmware() {
+    for (mode, planted, list, counting) in CASES {
+        let made = made(mode, planted);
+        let solution = told(&made, list);
+        assert!(counting.iter().all(|name| contributes(&solution, name)));
+        let structure = &solution.structure;
+        assert_eq!(structure.hysteresis, list.contains(&"bouc-wen"));
+        if planted.contains(&"delay") {
+            let source = structure.terms[0].source;
+            assert!(matches!(source, Source::Channel(_)));
+        }
+        if planted.contains(&"degradation") {
+            assert!(structure.terms.iter().any(|t| t.origin != 0.0));
+        }
+        assert_the_same(&made.data, &solution, 0.0);
+    }
 }
 
 /// A curve with five points between the quarters of its variable, in front of a lag.

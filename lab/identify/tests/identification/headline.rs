@@ -2,18 +2,15 @@
 //! found, and where the search finds no term nothing is named. The same on hundreds of records, with
 //! every effect and noise of three colours, is in the modules beside this one, which `.ci/run` runs.
 
-use super::rig::Made;
+use super::rig::{names, with_effects, Made, MODES};
 use bowden_lab::ledger::Ledger;
-use bowden_synth::{Mode, Planted, Recipe};
+use bowden_synth::Mode;
 
 /// Closes the loop on a record of Bouc-Wen and, where one is given, an effect at three times
 /// the noise; declared is Bouc-Wen alone.
 fn closed(mode: Mode, effect: Option<&str>) -> (Made, Ledger) {
-    let made = Made::new(&Recipe {
-        seed: 66_300,
-        effects: effect.map(Planted::new).into_iter().collect(),
-        ..Recipe::new(mode)
-    });
+    let effects: Vec<_> = effect.map(|name| (name, 3.0)).into_iter().collect();
+    let made = Made::new(&with_effects(mode, &effects, 66_300));
     let ledger = made.closed();
     (made, ledger)
 }
@@ -25,9 +22,7 @@ fn an_effect_that_nobody_declared_is_found_by_name_and_taken_away() {
         (Mode::Displacement, "drag-quadratic"),
     ] {
         let (made, ledger) = closed(mode, Some(effect));
-        let rounds = ledger.rounds.iter();
-        let names: Vec<&str> = rounds.map(|r| r.candidate.term.effect.name()).collect();
-        assert_eq!(names, [effect], "{mode:?}");
+        assert_eq!(names(&ledger), [effect], "{mode:?}");
         assert!(ledger.unknown.is_none(), "{mode:?} {effect}");
         let (before, after) = (ledger.declared.rmse.held_out, ledger.last().rmse.held_out);
         assert!(
@@ -46,7 +41,7 @@ fn an_effect_that_nobody_declared_is_found_by_name_and_taken_away() {
 
 #[test]
 fn where_nothing_is_missing_nothing_is_named() {
-    for mode in [Mode::Torque, Mode::Displacement] {
+    for mode in MODES {
         let (_, ledger) = closed(mode, None);
         assert!(
             ledger.rounds.is_empty(),

@@ -7,16 +7,13 @@
 //! * [`recovery`]: planted Bouc-Wen parameters come back, and so do their intervals.
 //! * [`planted`]: an undeclared effect is found, named and taken away.
 //! * [`nulls`]: where the search finds no term, nothing is added.
-//! * [`beside`]: effects that are found only beside each other.
-//! * [`imitated`]: names that imitated an effect together leave again, all at once.
+//! * [`beside`]: effects that are found only beside each other, and names that imitated one leave at once.
 //! * [`delivered`]: the final model has seen all but what is held out, and is nearer to the truth.
 //! * [`unneeded`]: baseline parts that the record does not need are told.
-//! * [`series`]: a play between the input and the transmission is found with its width.
+//! * [`series`]: a play is found with its width, in series too, and where the hysteresis imitates it.
 //! * [`hardening`]: the benchmark of Noël and Schoukens comes back.
 //! * [`power_law`]: a power law of the velocity is told from viscous and Coulomb friction.
-//! * [`hidden`]: a play that the hysteresis imitates is found beside it.
-//! * [`late`]: a delay has its size at every cut-off.
-//! * [`stretch`]: the stretch of a cable is one name beside the two angles.
+//! * [`stretch`]: the stretch of a cable is one name beside the two angles, a delay at every cut-off.
 //! * [`torque_alone`]: without an angle in the record, viscous friction follows the torque's rate.
 //! * [`turned`]: a sensor or a scale that was mounted the other way round changes signs, no names.
 //! * [`widths`]: an interval is as wide as the noise makes it, whatever its seed.
@@ -31,9 +28,6 @@ mod exported;
 mod foresight;
 mod hardening;
 mod headline;
-mod hidden;
-mod imitated;
-mod late;
 mod nulls;
 mod planted;
 mod power_law;

@@ -1,9 +1,9 @@
 //! Where the search finds no term, nothing is added.
 
-use crate::rig::{Made, MODES};
+use crate::rig::{bare, Made, MODES};
 use bowden_lab::conclude::intervals::term_name;
 use bowden_lab::search::close;
-use bowden_synth::{Mode, Recipe};
+use bowden_synth::Mode;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -19,13 +19,7 @@ static RECORDS: LazyLock<Vec<(Mode, u64, Made)>> = LazyLock::new(|| {
         .flat_map(|mode| (1..=SEEDS).map(move |seed| (mode, seed)))
         .collect();
     all.into_par_iter()
-        .map(|(mode, seed)| {
-            let recipe = Recipe {
-                seed: 7000 + seed,
-                ..Recipe::new(mode)
-            };
-            (mode, seed, Made::new(&recipe))
-        })
+        .map(|(mode, seed)| (mode, seed, Made::new(&bare(mode, 7000 + seed))))
         .collect()
 });
 
@@ -79,16 +73,11 @@ fn added(colour: f64) -> Vec<String> {
 
 #[test]
 #[ignore = "slow: bash .ci/run identification"]
-fn white_noise_adds_nothing_in_forty_records() {
-    let added = added(0.0);
-    assert!(added.is_empty(), "{added:#?}");
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run identification"]
-fn noise_with_a_correlation_of_0_9_adds_nothing_in_forty_records() {
-    let added = added(0.9);
-    assert!(added.is_empty(), "{added:#?}");
+fn noise_of_little_or_no_correlation_adds_nothing_in_forty_records() {
+    for colour in [0.0, 0.9] {
+        let added = added(colour);
+        assert!(added.is_empty(), "{colour}: {added:#?}");
+    }
 }
 
 /// At 1 kHz this noise keeps its value for a tenth of a second: sixteen blocks are seven

@@ -109,10 +109,6 @@ fn expected(mode: Mode, effect: &str, strength: f64) -> Expected {
     exception(mode, effect, strength).map_or(Found, |e| e.expected)
 }
 
-fn reason(mode: Mode, effect: &str, strength: f64) -> &'static str {
-    exception(mode, effect, strength).map_or("", |e| e.reason)
-}
-
 fn family_of(effect: &str) -> &'static str {
     CATALOGUE
         .iter()
@@ -264,7 +260,7 @@ fn every_effect(mode: Mode, strength: f64, seed: u64) {
         println!("{mode:?} {strength} × noise: {line}");
         if !shortfalls.is_empty() {
             let asked = expected(mode, effect, strength);
-            let reason = reason(mode, effect, strength);
+            let reason = exception(mode, effect, strength).map_or("", |e| e.reason);
             let what = shortfalls.join("; ");
             short.push(format!("{line}: {what} ({asked:?}; {reason})"));
         }
@@ -277,26 +273,18 @@ fn every_effect(mode: Mode, strength: f64, seed: u64) {
 
 #[test]
 #[ignore = "slow: bash .ci/run identification"]
-fn in_torque_mode_every_effect_at_three_times_the_noise_is_found_and_taken_away() {
-    every_effect(Mode::Torque, 3.0, 1001);
+fn every_effect_at_three_times_the_noise_is_found_and_taken_away() {
+    for mode in MODES {
+        every_effect(mode, 3.0, 1001);
+    }
 }
 
 #[test]
 #[ignore = "slow: bash .ci/run identification"]
-fn in_torque_mode_every_effect_as_strong_as_the_noise_is_found_and_taken_away() {
-    every_effect(Mode::Torque, 1.0, 1002);
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run identification"]
-fn in_displacement_mode_every_effect_at_three_times_the_noise_is_found_and_taken_away() {
-    every_effect(Mode::Displacement, 3.0, 1001);
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run identification"]
-fn in_displacement_mode_every_effect_as_strong_as_the_noise_is_found_and_taken_away() {
-    every_effect(Mode::Displacement, 1.0, 1002);
+fn every_effect_as_strong_as_the_noise_is_found_and_taken_away() {
+    for mode in MODES {
+        every_effect(mode, 1.0, 1002);
+    }
 }
 
 /// The table above must not quietly take a whole family out of the test.

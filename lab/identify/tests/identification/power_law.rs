@@ -1,35 +1,16 @@
 //! A power law of the velocity is told from viscous and Coulomb friction, and from what else
 //! rises with the velocity.
 
-use crate::rig::{Made, MODES};
+use crate::rig::{names, with_effects, Made, MODES};
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::ledger::{Grade, Ledger};
-use bowden_synth::{Mode, Planted, Recipe};
+use bowden_synth::{Mode, Recipe};
 
 /// The record of some effects at that many times the noise, and what is found in it.
 fn closed(mode: Mode, effects: &[(&str, f64)], seed: u64) -> (Made, Ledger) {
-    closed_for(20.0, mode, effects, seed)
-}
-
-/// The same of a record of that many seconds.
-fn closed_for(seconds: f64, mode: Mode, effects: &[(&str, f64)], seed: u64) -> (Made, Ledger) {
-    let planted = effects.iter().map(|&(effect, strength)| Planted {
-        strength,
-        ..Planted::new(effect)
-    });
-    let made = Made::new(&Recipe {
-        seed,
-        seconds,
-        effects: planted.collect(),
-        ..Recipe::new(mode)
-    });
+    let made = Made::new(&with_effects(mode, effects, seed));
     let ledger = made.closed();
     (made, ledger)
-}
-
-fn names(ledger: &Ledger) -> Vec<&str> {
-    let rounds = ledger.rounds.iter();
-    rounds.map(|r| r.candidate.term.effect.name()).collect()
 }
 
 fn families(ledger: &Ledger) -> Vec<&'static str> {
@@ -108,8 +89,11 @@ fn no_stribeck_effect_opposes_the_coulomb_friction_beside_it() {
 fn a_power_law_takes_the_place_of_three_names_and_of_a_curve() {
     let beside: &[(&str, f64)] = &[("rate", 1.2), ("creep", 2.0), ("power-law", 1.5)];
     for seed in [5001, 5004, 5008] {
-        let (_, ledger) = closed_for(60.0, MODES[0], beside, seed);
-        let mut names = names(&ledger);
+        let recipe = Recipe {
+            seconds: 60.0,
+            ..with_effects(MODES[0], beside, seed)
+        };
+        let mut names = names(&Made::new(&recipe).closed());
         names.sort_unstable();
         assert_eq!(names, ["creep", "power-law", "rate"], "{seed}");
     }

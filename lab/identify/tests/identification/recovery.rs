@@ -1,6 +1,6 @@
 //! Planted Bouc-Wen parameters come back from the record, and so do their intervals.
 
-use crate::rig::{with_effect, Made, MODES};
+use crate::rig::{bare, named, with_effect, Made, MODES};
 use bowden_lab::conclude::intervals::Parameter;
 use bowden_lab::fit::{fit, Solution};
 use bowden_lab::model::structure::Role;
@@ -26,12 +26,6 @@ fn planted(mode: Mode, base: &Base, gains: f64, shapes: f64) -> [(&'static str, 
     ]
 }
 
-fn named<'a>(all: &'a [Parameter], name: &str) -> &'a Parameter {
-    all.iter()
-        .find(|p| p.name == name)
-        .unwrap_or_else(|| panic!("no parameter {name} in {all:?}"))
-}
-
 fn told(made: &Made, list: &[&str]) -> Solution {
     fit(&made.data, &made.declare(list), None, 0.0).unwrap()
 }
@@ -54,11 +48,10 @@ fn a_clean_record_gives_its_parameters_back() {
         .into_par_iter()
         .flat_map_iter(|(mode, seed)| {
             let made = Made::new(&Recipe {
-                seed,
                 noise: 0.0,
                 quantisation: 0.0,
                 resolution: 0.0,
-                ..Recipe::new(mode)
+                ..bare(mode, seed)
             });
             let solution = told(&made, &["bouc-wen"]);
             let found = made.parameters(&solution);
@@ -93,10 +86,7 @@ fn a_noisy_record_gives_its_parameters_back_within_their_intervals() {
     let all: Vec<(bool, Option<String>)> = in_both_modes(31..=40)
         .into_par_iter()
         .flat_map_iter(|(mode, seed)| {
-            let made = Made::new(&Recipe {
-                seed,
-                ..Recipe::new(mode)
-            });
+            let made = Made::new(&bare(mode, seed));
             let found = made.parameters(&told(&made, &["bouc-wen"]));
             planted(mode, &made.synthetic.truth.base, 2e-3, 8e-3).map(|(name, value, tolerance)| {
                 let Parameter {
@@ -136,32 +126,17 @@ fn a_parameter_on_its_bound_is_reported_as_not_identified() {
             sigma: 1.2,
             n: 1.6,
         };
+        let sigma = |sigma: f64| Base { sigma, ..plain };
+        let n = |n: f64| Base { n, ..plain };
         for (name, end, role, base) in [
-            (
-                "sigma",
-                "lower",
-                Role::Sigma,
-                Base {
-                    sigma: 0.5,
-                    ..plain
-                },
-            ),
-            (
-                "sigma",
-                "upper",
-                Role::Sigma,
-                Base {
-                    sigma: 1e4,
-                    ..plain
-                },
-            ),
-            ("n", "lower", Role::N, Base { n: 1.0, ..plain }),
-            ("n", "upper", Role::N, Base { n: 200.0, ..plain }),
+            ("sigma", "lower", Role::Sigma, sigma(0.5)),
+            ("sigma", "upper", Role::Sigma, sigma(1e4)),
+            ("n", "lower", Role::N, n(1.0)),
+            ("n", "upper", Role::N, n(200.0)),
         ] {
             let made = Made::new(&Recipe {
-                seed: 5,
                 base: Some(base),
-                ..Recipe::new(mode)
+                ..bare(mode, 5)
             });
             let solution = told(&made, &["bouc-wen"]);
             let at = solution.free.iter().position(|f| f.role == role).unwrap();
@@ -245,9 +220,8 @@ fn without_a_loop_in_the_record_its_shapes_are_not_identified() {
             n: 1.6,
         };
         let made = Made::new(&Recipe {
-            seed,
             base: Some(base),
-            ..Recipe::new(mode)
+            ..bare(mode, seed)
         });
         let found = made.parameters(&told(&made, &["bouc-wen"]));
         for name in ["rho", "sigma", "n"] {

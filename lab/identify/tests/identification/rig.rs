@@ -1,8 +1,8 @@
 //! Records to identify, and what is known of them.
 
-use bowden_lab::conclude::intervals::{parameters, Parameter};
+use bowden_lab::conclude::intervals::{parameters, term_name, Parameter};
 use bowden_lab::fit::{Segments, Solution};
-use bowden_lab::ledger::Ledger;
+use bowden_lab::ledger::{Ledger, Round};
 use bowden_lab::model::declared::structure;
 use bowden_lab::model::structure::Structure;
 use bowden_lab::problem::{Preparation, Prepared};
@@ -88,14 +88,57 @@ impl Made {
     }
 }
 
-/// A record with that effect, of that strength in units of the noise.
-pub fn with_effect(mode: Mode, effect: &str, strength: f64, seed: u64) -> Recipe {
+/// A record with these effects, each of that strength in units of the noise.
+pub fn with_effects(mode: Mode, effects: &[(&str, f64)], seed: u64) -> Recipe {
+    let planted = effects.iter().map(|&(effect, strength)| Planted {
+        strength,
+        ..Planted::new(effect)
+    });
     Recipe {
         seed,
-        effects: vec![Planted {
-            strength,
-            ..Planted::new(effect)
-        }],
+        effects: planted.collect(),
         ..Recipe::new(mode)
     }
+}
+
+pub fn with_effect(mode: Mode, effect: &str, strength: f64, seed: u64) -> Recipe {
+    with_effects(mode, &[(effect, strength)], seed)
+}
+
+/// A record with nothing but the transmission.
+pub fn bare(mode: Mode, seed: u64) -> Recipe {
+    with_effects(mode, &[], seed)
+}
+
+/// A record that is not the generator's, prepared, with Bouc-Wen declared.
+pub fn prepared(text: &str, preparation: Preparation) -> (Prepared, Structure) {
+    let record = parse(text.as_bytes(), "made.csv", &Options::default()).unwrap();
+    let data = Prepared::new(&record, preparation).unwrap();
+    let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+    (data, declared)
+}
+
+/// The effects of the delivered rounds.
+pub fn names(ledger: &Ledger) -> Vec<&'static str> {
+    let rounds = ledger.rounds.iter();
+    rounds.map(|r| r.candidate.term.effect.name()).collect()
+}
+
+/// The same with the channels that they read.
+pub fn term_names(data: &Prepared, ledger: &Ledger) -> Vec<String> {
+    let rounds = ledger.rounds.iter();
+    rounds.map(|r| term_name(data, &r.candidate.term)).collect()
+}
+
+/// The families that each round may be.
+pub fn families(ledger: &Ledger) -> Vec<Vec<&'static str>> {
+    let families = |round: &Round| round.possible().map(|one| one.family).collect();
+    ledger.rounds.iter().map(families).collect()
+}
+
+/// The parameter of that name.
+pub fn named<'a>(all: &'a [Parameter], name: &str) -> &'a Parameter {
+    let mut all = all.iter();
+    all.find(|p| p.name == name)
+        .unwrap_or_else(|| panic!("no parameter {name}"))
 }

@@ -2,10 +2,9 @@
 //! proportion to the torque's rate. The records are made here, from (2) of the paper by small
 //! steps of Euler's method, and read as a user's file.
 
+use crate::rig::{names, prepared};
 use bowden_lab::ledger::{Grade, Ledger};
-use bowden_lab::model::declared::structure;
-use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{parse, Options};
+use bowden_lab::problem::Preparation;
 use bowden_lab::search::close;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -84,15 +83,8 @@ fn file(seed: u64, lacks: Lacks) -> (String, f64) {
 }
 
 fn closed(file: &str) -> Ledger {
-    let record = parse(file.as_bytes(), "rig.csv", &Options::default()).unwrap();
-    let data = Prepared::new(&record, Preparation::default()).unwrap();
-    let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+    let (data, declared) = prepared(file, Preparation::default());
     close(&data, &declared, |_| ()).unwrap()
-}
-
-fn names(ledger: &Ledger) -> Vec<&'static str> {
-    let rounds = ledger.rounds.iter();
-    rounds.map(|r| r.candidate.term.effect.name()).collect()
 }
 
 #[test]

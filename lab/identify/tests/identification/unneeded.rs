@@ -1,6 +1,6 @@
 //! What was declared and is not in the record is told; what is in it is not.
 
-use crate::rig::{Made, MODES};
+use crate::rig::{bare, Made, MODES};
 use bowden_lab::conclude::final_fit::FinalFit;
 use bowden_lab::conclude::unneeded::unneeded;
 use bowden_lab::search::close;
@@ -40,9 +40,8 @@ fn hysteresis_that_is_there_is_needed() {
     for mode in MODES {
         for effects in [Vec::new(), vec![Planted::new("viscous")]] {
             let recipe = Recipe {
-                seed: 3,
                 effects,
-                ..Recipe::new(mode)
+                ..bare(mode, 3)
             };
             assert_eq!(parts(&recipe, &["bouc-wen"]), Vec::<String>::new());
         }
@@ -56,10 +55,9 @@ fn a_rig_that_is_a_line_and_viscous_is_not_sold_a_hysteresis() {
     for mode in MODES {
         for effects in [Vec::new(), vec![Planted::new("viscous")]] {
             let recipe = Recipe {
-                seed: 5,
                 effects,
                 base: Some(line(mode)),
-                ..Recipe::new(mode)
+                ..bare(mode, 5)
             };
             assert_eq!(parts(&recipe, &["bouc-wen"]), ["bouc-wen"], "{recipe:?}");
         }
@@ -71,9 +69,8 @@ fn a_rig_that_is_a_line_and_viscous_is_not_sold_a_hysteresis() {
 fn a_declared_term_is_needed_where_it_is_in_the_record_and_only_there() {
     for mode in MODES {
         let with = |effects: Vec<Planted>| Recipe {
-            seed: 9,
             effects,
-            ..Recipe::new(mode)
+            ..bare(mode, 9)
         };
         // The channel that the generator's term reads.
         let viscous = match mode {

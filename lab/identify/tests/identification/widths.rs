@@ -1,10 +1,9 @@
 //! Intervals are as wide as the noise makes them, whatever its seed.
 
+use crate::rig::prepared;
 use bowden_lab::conclude::intervals::parameters;
 use bowden_lab::fit::fit;
-use bowden_lab::model::declared::structure;
-use bowden_lab::problem::{Preparation, Prepared};
-use bowden_lab::record::{parse, Options};
+use bowden_lab::problem::Preparation;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -48,9 +47,7 @@ fn no_seed_of_the_noise_makes_an_interval_many_times_as_wide() {
     let widths: Vec<Vec<(String, f64)>> = (1..=14_u64)
         .into_par_iter()
         .map(|seed| {
-            let record = parse(record(seed).as_bytes(), "made.csv", &Options::default()).unwrap();
-            let data = Prepared::new(&record, Preparation::default()).unwrap();
-            let declared = structure(&["bouc-wen".to_owned()], &data).unwrap();
+            let (data, declared) = prepared(&record(seed), Preparation::default());
             let solution = fit(&data, &declared, None, 0.0).unwrap();
             let all = parameters(&data, &solution);
             let own = all.iter().map(|p| {

@@ -1,7 +1,10 @@
 //! What one model of several records finds, and what it leaves to each.
 
 use crate::rig::{added, closed, declared, on, Files};
+use crate::shared::DAMPER;
 use bowden_lab::conclude::intervals::parameters;
+use bowden_lab::fit::{fit, Solution};
+use bowden_lab::model::declared::structure;
 use bowden_lab::problem::{HeldOut, Preparation, Prepared};
 use bowden_lab::search::close;
 use bowden_synth::{Base, Mode, Planted, Recipe};
@@ -126,4 +129,34 @@ fn a_file_that_the_fit_never_saw_is_predicted_down_to_its_noise() {
     // scatter of an rms over a few hundred independent values and what fitting leaves.
     assert!(rmse.held_out < 1.3 * rmse.fit, "{rmse:?}");
     assert!(ledger.declared.rmse.held_out > 3.0 * rmse.held_out);
+}
+
+/// The current through the coil sets how much a damper grips: kappa_eta, and little else.
+#[test]
+fn a_damper_at_two_currents_has_one_loop_shape_and_two_kappa_eta() {
+    let files = [DAMPER.file, "mr_damper_utfsm/sine_25mm0x25Hz0A.csv"];
+    let paths = files.iter().map(|file| DAMPER.of_file(file).path());
+    let Some(paths) = paths.collect::<Option<Vec<_>>>() else {
+        return;
+    };
+    let records = DAMPER.asked().read_together(&paths);
+    let records = records.unwrap_or_else(|line| panic!("{line}"));
+    let cutoff = Some(DAMPER.cutoff);
+    let data = Prepared::joined(&records, Preparation { cutoff }, HeldOut::Trailing).unwrap();
+    let mut declared = structure(&["bouc-wen".to_owned(), "viscous".to_owned()], &data).unwrap();
+    let common = fit(&data, &declared, None, 0.0).unwrap();
+    declared.own_gains = records.len();
+    let own = fit(&data, &declared, None, 0.0).unwrap();
+    let percent = |s: &Solution| {
+        let share = s.rmse.normalised(&data, &data.target);
+        (100.0 * share.fit, 100.0 * share.held_out)
+    };
+    println!("common {:?}, own {:?}", percent(&common), percent(&own));
+    assert!(3.0 * own.rmse.fit < common.rmse.fit);
+    assert!(3.0 * own.rmse.held_out < common.rmse.held_out);
+    let all = parameters(&data, &own);
+    let kappa = |name: &str| all.iter().find(|p| p.name == name).unwrap();
+    let (on, off) = (kappa("kappa_eta.1"), kappa("kappa_eta.2"));
+    println!("{on:?}\n{off:?}");
+    assert!(on.value.abs() > 2.0 * off.value.abs(), "{on:?} {off:?}");
 }

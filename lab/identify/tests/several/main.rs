@@ -5,7 +5,6 @@ mod alone;
 mod grids;
 mod joint;
 mod many;
-mod measured;
 mod rig;
 #[allow(dead_code)]
 #[path = "../shared/mod.rs"]

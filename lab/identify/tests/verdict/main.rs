@@ -144,19 +144,16 @@ fn a_bump_over_position_is_unknown_and_no_name_is_given() {
 
 #[test]
 #[ignore = "slow: bash .ci/run conclusions"]
-fn a_bump_over_the_load_is_unknown_and_no_name_is_given() {
-    let all = records(&[("bump-load", 3.0)], 0.0);
-    mostly(&all, |c| is_unknown(c, &["load"], &["tau_i", "load"]));
-    mostly(&all, |c| c.names().is_empty());
-}
-
-#[test]
-#[ignore = "slow: bash .ci/run conclusions"]
-fn a_spike_after_reversals_is_unknown_and_no_name_is_given() {
-    let all = records(&[("reversal-spike", 3.0)], 0.0);
+fn a_bump_over_the_load_and_a_spike_after_reversals_are_unknown_and_no_name_is_given() {
     let local = ["reversal-distance", "reversal-time"];
-    mostly(&all, |c| is_unknown(c, &local, &["tau_i", "x"]));
-    mostly(&all, |c| c.names().is_empty());
+    for (effect, variables, channels) in [
+        ("bump-load", &["load"][..], ["tau_i", "load"]),
+        ("reversal-spike", &local, ["tau_i", "x"]),
+    ] {
+        let all = records(&[(effect, 3.0)], 0.0);
+        mostly(&all, |c| is_unknown(c, variables, &channels));
+        mostly(&all, |c| c.names().is_empty());
+    }
 }
 
 #[test]

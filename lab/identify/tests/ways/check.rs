@@ -12,28 +12,31 @@ use rayon::prelude::*;
 
 const MODES: [Mode; 2] = [Mode::Torque, Mode::Displacement];
 
-fn viscous(mode: Mode) -> Recipe {
+fn viscous(mode: Mode, seed: u64) -> Recipe {
     let gain = match mode {
         Mode::Torque => 0.2,
         Mode::Displacement => 0.01,
     };
     Recipe {
         effects: vec![Planted::with_gain("viscous", gain)],
-        ..Recipe::of_one_rig(mode, 0)
+        ..Recipe::of_one_rig(mode, seed)
+    }
+}
+
+/// The viscous effect as it is declared.
+fn name_of(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Torque => "viscous@phi_p",
+        Mode::Displacement => "viscous",
     }
 }
 
 fn own_model(mode: Mode, seed: u64, colour: f64) -> Given {
     let recipe = Recipe {
-        seed,
         colour,
-        ..viscous(mode)
+        ..viscous(mode, seed)
     };
-    let name = match mode {
-        Mode::Torque => "viscous@phi_p",
-        Mode::Displacement => "viscous",
-    };
-    Closed::new(&recipe, &["bouc-wen", name], 0).given()
+    Closed::new(&recipe, &["bouc-wen", name_of(mode)], 0).given()
 }
 
 /// Twelve pairs of records in each of four cells: white and coloured noise, both modes.
@@ -50,9 +53,8 @@ fn calibration_of_what_holds_on_the_next_record_of_the_same_rig() {
         .map(|&(mode, colour, k)| {
             let given = own_model(mode, 71_000 + k, colour);
             let next = Recipe {
-                seed: 72_000 + k,
                 colour,
-                ..viscous(mode)
+                ..viscous(mode, 72_000 + k)
             };
             let found = check(&given, &next);
             let moved = found.line.gain_moved() || found.line.offset_moved(found.deviation);
@@ -75,10 +77,7 @@ fn calibration_of_what_holds_on_the_next_record_of_the_same_rig() {
 fn a_gain_that_has_moved_by_ten_percent_is_told_from_a_model_that_does_not_hold() {
     for mode in MODES {
         let given = own_model(mode, 71_100, 0.0);
-        let mut next = Recipe {
-            seed: 72_100,
-            ..viscous(mode)
-        };
+        let mut next = viscous(mode, 72_100);
         let base = next.base.unwrap();
         next.base = Some(Base {
             gain: 1.1 * base.gain,
@@ -107,10 +106,7 @@ fn a_gain_that_has_moved_by_ten_percent_is_told_from_a_model_that_does_not_hold(
 #[test]
 fn an_offset_that_has_moved_is_called_an_offset() {
     let given = own_model(Mode::Displacement, 71_101, 0.0);
-    let mut next = Recipe {
-        seed: 72_101,
-        ..viscous(Mode::Displacement)
-    };
+    let mut next = viscous(Mode::Displacement, 72_101);
     let base = next.base.unwrap();
     next.base = Some(Base {
         offset: base.offset + 2.0,
@@ -171,10 +167,7 @@ fn an_effect_that_came_after_the_model_makes_it_not_hold_and_its_variable_is_nam
 #[test]
 fn where_the_model_holds_nothing_is_searched() {
     let given = own_model(Mode::Displacement, 71_103, 0.0);
-    let next = Recipe {
-        seed: 72_103,
-        ..viscous(Mode::Displacement)
-    };
+    let next = viscous(Mode::Displacement, 72_103);
     let found = check(&given, &next);
     assert_eq!(found.verdict, Verdict::Holds);
     assert!(found.depends_on.is_empty());
@@ -194,10 +187,7 @@ fn a_record_beyond_what_the_model_has_seen_is_said_to_be() {
         acceleration: None,
     };
     given.about.ranges.insert("input".to_owned(), seen);
-    let next = Recipe {
-        seed: 72_104,
-        ..viscous(Mode::Displacement)
-    };
+    let next = viscous(Mode::Displacement, 72_104);
     let found = check(&given, &next);
     // Within ±10 mm, but faster than ±10 mm/s.
     let listed: Vec<_> = found
@@ -219,10 +209,7 @@ fn a_record_beyond_what_the_model_has_seen_is_said_to_be() {
 fn without_a_held_out_error_only_noise_is_judged() {
     let mut given = own_model(Mode::Displacement, 71_105, 0.0);
     given.about.nrmse = None;
-    let next = Recipe {
-        seed: 72_105,
-        ..viscous(Mode::Displacement)
-    };
+    let next = viscous(Mode::Displacement, 72_105);
     let found = check(&given, &next);
     assert_eq!(
         found.verdict,
@@ -250,10 +237,7 @@ fn a_model_that_explains_nothing_does_not_hold_however_bad_it_was_before() {
         errors.held_out = Some(5.0);
     }
     given.file.transmission.as_mut().unwrap().gain = -2.0;
-    let next = Recipe {
-        seed: 72_106,
-        ..viscous(Mode::Displacement)
-    };
+    let next = viscous(Mode::Displacement, 72_106);
     assert_eq!(check(&given, &next).verdict, Verdict::DoesNotHold);
 }
 
@@ -261,10 +245,7 @@ fn a_model_that_explains_nothing_does_not_hold_however_bad_it_was_before() {
 #[ignore = "slow: bash .ci/run conclusions"]
 fn the_start_of_the_record_does_not_count_and_less_of_it_does_not_for_a_model_without_memory() {
     let given = own_model(Mode::Displacement, 71_107, 0.0);
-    let next = Recipe {
-        seed: 72_107,
-        ..viscous(Mode::Displacement)
-    };
+    let next = viscous(Mode::Displacement, 72_107);
     let found = check(&given, &next);
     assert!(
         found.left_out > 0.5 && found.left_out <= 5.0,
@@ -287,30 +268,12 @@ fn the_start_of_the_record_does_not_count_and_less_of_it_does_not_for_a_model_wi
 #[ignore = "slow: bash .ci/run conclusions"]
 fn the_check_of_a_models_own_record_gives_its_own_error_again() {
     for mode in MODES {
-        let recipe = Recipe {
-            seed: 71_108,
-            ..viscous(mode)
-        };
-        let closed = Closed::new(
-            &recipe,
-            &[
-                "bouc-wen",
-                if mode == Mode::Torque {
-                    "viscous@phi_p"
-                } else {
-                    "viscous"
-                },
-            ],
-            0,
-        );
+        let recipe = viscous(mode, 71_108);
+        let closed = Closed::new(&recipe, &["bouc-wen", name_of(mode)], 0);
         let found = check(&closed.given(), &recipe);
-        let own: f64 = {
-            let rows = &found.data.split.fit;
-            let squares = rows
-                .iter()
-                .map(|&i| closed.done.solution.residual[i].powi(2));
-            (squares.sum::<f64>() / rows.len() as f64).sqrt()
-        };
+        let (rows, residual) = (&found.data.split.fit, &closed.done.solution.residual);
+        let squares: f64 = rows.iter().map(|&i| residual[i].powi(2)).sum();
+        let own = (squares / rows.len() as f64).sqrt();
         // The same rows; only eta(0) differs, and by then it is forgotten.
         assert!(
             (found.rmse / own - 1.0).abs() < 0.01,
@@ -329,41 +292,18 @@ fn an_output_stage_and_a_play_in_series_run_as_they_were_fitted() {
     };
     let closed = Closed::new(&recipe, &["bouc-wen"], 2);
     let mut given = closed.given();
-    assert!(given
-        .file
-        .terms
-        .iter()
-        .any(|t| t.effect == "play-in-series"));
-    assert_eq!(
-        check(
-            &given,
-            &Recipe {
-                seed: 72_109,
-                ..recipe.clone()
-            }
-        )
-        .verdict,
-        Verdict::Holds
-    );
+    let terms = &given.file.terms;
+    assert!(terms.iter().any(|t| t.effect == "play-in-series"));
+    let next = Recipe {
+        seed: 72_109,
+        ..recipe
+    };
+    assert_eq!(check(&given, &next).verdict, Verdict::Holds);
     // A wider play is another rig.
     let wider = |shape: &mut ShapeFile| shape.value *= 1.5;
-    given
-        .file
-        .terms
-        .iter_mut()
-        .flat_map(|t| &mut t.shapes)
-        .for_each(wider);
-    assert_eq!(
-        check(
-            &given,
-            &Recipe {
-                seed: 72_109,
-                ..recipe
-            }
-        )
-        .verdict,
-        Verdict::DoesNotHold
-    );
+    let shapes = given.file.terms.iter_mut().flat_map(|t| &mut t.shapes);
+    shapes.for_each(wider);
+    assert_eq!(check(&given, &next).verdict, Verdict::DoesNotHold);
 
     let lag = Recipe {
         effects: vec![Planted::new("lag")],

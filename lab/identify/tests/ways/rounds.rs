@@ -8,26 +8,17 @@ use bowden_synth::{Mode, Planted, Recipe};
 
 /// A rig that lacks three effects.
 fn three() -> Recipe {
+    let strong = |effect| Planted {
+        strength: 2.0,
+        ..Planted::new(effect)
+    };
     Recipe {
         effects: vec![
             Planted::new("viscous"),
-            Planted {
-                strength: 2.0,
-                ..Planted::new("stiffness-cubic")
-            },
-            Planted {
-                strength: 2.0,
-                ..Planted::new("inertia")
-            },
+            strong("stiffness-cubic"),
+            strong("inertia"),
         ],
         ..Recipe::of_one_rig(Mode::Displacement, 73_000)
-    }
-}
-
-fn stopped(most: usize) -> Finding {
-    Finding::SearchStopped {
-        seconds: None,
-        terms: Some(most),
     }
 }
 
@@ -62,7 +53,11 @@ fn rounds_end_where_they_were_asked_to_and_the_sentence_says_so() {
         };
         assert_eq!(found, expected, "{most}");
         let all = findings(&closed.data, &closed.ledger, &closed.done, found);
-        assert!(all.contains(&stopped(most)), "{all:#?}");
+        let stopped = Finding::SearchStopped {
+            seconds: None,
+            terms: Some(most),
+        };
+        assert!(all.contains(&stopped), "{all:#?}");
     }
 }
 
@@ -109,12 +104,8 @@ fn no_rounds_draw_no_curve_of_what_has_no_name() {
         effects: vec![Planted::new("bump-position")],
         ..Recipe::of_one_rig(Mode::Displacement, 73_003)
     };
-    assert!(Closed::new(&recipe, &["bouc-wen"], 8)
-        .ledger
-        .unknown
-        .is_some());
-    assert!(Closed::new(&recipe, &["bouc-wen"], 0)
-        .ledger
-        .unknown
-        .is_none());
+    for (most, is_drawn) in [(8, true), (0, false)] {
+        let ledger = Closed::new(&recipe, &["bouc-wen"], most).ledger;
+        assert_eq!(ledger.unknown.is_some(), is_drawn, "{most}");
+    }
 }
