@@ -113,7 +113,7 @@ crate::checked! {
         Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
-    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// Sets the period \[channel unit\] of positions that wrap, such as counter readings. The
     /// period must be positive.
     ///
     /// Between two good samples, the axis must move by less than half a period.
