@@ -77,7 +77,7 @@ fn marks_and_separators_of_thousands_are_told_from_other_words() {
         refused(
             with_line(9, &format!("0.07,{mark},2")),
             &format!(
-                "r.csv:9: column `x`: `{mark}` is a placeholder, not a number; empty the cell, and use --drop-bad to drop the row"
+                "r.csv:9: column `x`: `{mark}` is a placeholder, not a number; clear the cell, and use --drop-bad to drop the row"
             ),
         );
     }

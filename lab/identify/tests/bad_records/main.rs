@@ -62,7 +62,7 @@ fn a_file_that_cannot_be_opened_is_named() {
     );
     let error = read(folder.path(), &Options::default()).unwrap_err();
     let line = format!(
-        "{}: this is a folder; give a CSV file",
+        "{}: this is a folder; pass a record file, such as CSV, JSON or .xlsx",
         folder.path().display()
     );
     assert_eq!(error.to_string(), line);
@@ -95,7 +95,7 @@ fn a_file_without_a_record_is_refused() {
 fn a_file_that_is_not_text_is_refused() {
     refused(
         b"t,x,f\n0,1,2\n\x00\x01",
-        "r.csv:3: byte 12 is NUL, so the file is binary; give CSV text",
+        "r.csv:3: byte 12 is NUL, so the file is neither text nor a known binary format; export it as CSV",
     );
     refused(
         b"t,x,f\n0,1\xb5,2\n",

@@ -26,7 +26,7 @@ fn same(text: &str, options: &Options, notes: &[&str]) -> Record {
     record
 }
 
-const BLANKS: &str = "columns are separated by blanks";
+const BLANKS: &str = "columns are separated by spaces";
 
 #[test]
 fn blanks_may_separate_the_columns() {

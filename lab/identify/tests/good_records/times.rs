@@ -198,7 +198,7 @@ fn minutes_and_seconds_are_time_stamps() {
     let line = parse(wrapped.as_bytes(), "r.csv", &Options::default()).unwrap_err();
     assert_eq!(
         line.to_string(),
-        "r.csv:303: column `t`: the time decreases from 89.9 to 0 s; if the record passes a full hour, write the hours too, as in 01:59:50.2"
+        "r.csv:303: column `t`: the time decreases from 89.9 to 0 s; if the record spans a full hour, write the hours too, as in 01:59:50.2"
     );
 }
 
