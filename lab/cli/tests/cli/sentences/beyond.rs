@@ -161,11 +161,13 @@ fn a_hysteresis_that_turns_against_the_loop_is_said_to_cancel_another_part() {
     let kappa = all.iter().find(|p| p["name"] == "kappa_eta").unwrap();
     assert!(kappa["value"].as_f64().unwrap() < 0.0, "{kappa}");
     closed.says(&[
-        "The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta -",
+        "The fitted hysteresis loop is traversed in the opposite direction to the measured loop (kappa_eta -",
         "partly cancel",
     ]);
     let cable = cable(0.95, 0.0, 0.12).close(&[]);
-    assert!(!cable.sentence().contains("runs in the opposite sense to"));
+    assert!(!cable
+        .sentence()
+        .contains("is traversed in the opposite direction to"));
 }
 
 /// Eight units, of stiffness and stretch drawn at random.

@@ -106,7 +106,7 @@ fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
     let closed = joint();
     closed.says(&[
         "Nearly all of the model's output comes from `phi_d`",
-        "Does `phi_d` measure the output, as an angle behind a spring does?",
+        "Does `phi_d` measure the output, as an angle downstream of a spring does?",
     ]);
 }
 
