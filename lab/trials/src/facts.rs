@@ -471,7 +471,7 @@ fn first_gain(found: &Found) -> String {
     });
     if let Some((controller, before, after)) = errors {
         text.push_str(&format!(
-            " With the found model as a feed-forward, the true error of {controller} changes from {before:.4} to {after:.4} N·m rms."
+            " With a feed-forward from the identified model, the true error of {controller} changes from {before:.4} to {after:.4} N·m rms."
         ));
     }
     text
