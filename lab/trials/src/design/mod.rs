@@ -366,7 +366,7 @@ impl Safety {
 fn read(text: &str, label: &str) -> Result<ModelFile, String> {
     if text.trim().is_empty() {
         return Err(format!(
-            "{label}: the file is empty; give a model written by `bowden identify --model-out`"
+            "{label}: the file is empty; pass a model written by `bowden identify --model-out`"
         ));
     }
     let file: ModelFile = toml::from_str(text).map_err(|e| message(&e, text, label))?;

@@ -273,7 +273,7 @@ fn designed_gains_run_on_no_rig_but_that_of_a_model() {
         "compare --model {setup} --gains {gains} --seeds 1"
     )));
     assert!(
-        line.contains("setup.toml: with --gains, give a model written by `bowden identify"),
+        line.contains("setup.toml: with --gains, pass a model written by `bowden identify"),
         "{line}"
     );
 }

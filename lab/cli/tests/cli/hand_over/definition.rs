@@ -53,7 +53,7 @@ fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
     let words = String::from_utf8(output.stderr).unwrap();
     assert!(
         words.contains(
-            "channel `stretch` (fitted as proximal + distal), but the record has no such channel; give its column with --channel stretch=COL"
+            "channel `stretch` (fitted as proximal + distal), but the record has no such channel; pass its column with --channel stretch=COL"
         ),
         "{words}"
     );
