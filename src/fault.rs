@@ -45,7 +45,7 @@ crate::data! {
         /// Possible causes: the amplitude is too small or has the wrong sign, or `longest_time` is
         /// shorter than two periods.
         NoOscillation,
-        /// A relay experiment reached `longest_time` before enough successive cycles agreed.
+        /// A relay experiment reached `longest_time` before enough consecutive cycles agreed.
         ///
         /// Possible causes: `longest_time` is too short, the noise exceeds the hysteresis, or a
         /// cycle has fewer than `2/agreement` samples.

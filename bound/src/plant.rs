@@ -42,7 +42,7 @@ pub struct Plant<T, const N: usize> {
     /// Bound on the rate of D \[N·m/s\], for sampled certificates only.
     ///
     /// For the hysteresis, this rate is `kappa_eta·f/(B - kappa_eta·f)·|y'|`. Here
-    /// `f = rho·max(1, 2·sigma)` is the largest slope of eta versus tau_i, and
+    /// `f = 2·sigma·rho` is the largest slope of eta versus tau_i, and
     /// `tau_i' = y'/(B - kappa_eta·f)` in the worst case. For example, the rate is 45.7 N·m/s for
     /// the first set of Nguyen et al. (2018) with sigma = 1/2, if y follows the reference of the
     /// paper (`|y_r'| <= 22.24 N·m/s`).

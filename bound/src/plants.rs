@@ -28,7 +28,7 @@ pub struct PlantRange {
     /// c/K of the joint \[s\], not negative.
     pub joint: Interval<f64>,
     /// f, positive. Without hysteresis, f is 1. With hysteresis in torque mode and a positive
-    /// kappa_eta, f ranges from `1 − kappa_eta·rho·max(1, 2·sigma)/B` to 1.
+    /// kappa_eta, f ranges from `1 − 2·kappa_eta·sigma·rho/B` to 1.
     pub slope: Interval<f64>,
     /// theta \[s\], not negative: the sum of the delay, half a sample for the zero-order hold, and
     /// the lags of the drive and the sensor.

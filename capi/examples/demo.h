@@ -16,15 +16,15 @@
  * if (demo_load_f32(&model, NULL) < 0) ...
  */
 #ifdef BOWDEN_MODEL_DEMO_H
-#if BOWDEN_MODEL_DEMO_H != 0x00508057u
+#if BOWDEN_MODEL_DEMO_H != 0x33a4a6f7u
 #error "two headers of different models have the prefix DEMO_: export one under another file name"
 #endif
 #else
-#define BOWDEN_MODEL_DEMO_H 0x00508057u /* CRC-32 of the text below */
+#define BOWDEN_MODEL_DEMO_H 0x33a4a6f7u /* CRC-32 of the text below */
 
 #include "bowden.h"
 
-/* Smallest number of channels in a sample. */
+/* Minimum number of channels in a sample. */
 #define DEMO_CHANNELS 2
 #define DEMO_CHANNEL_PHI_P 0 /* phi_p [rad] */
 #define DEMO_CHANNEL_PHI_D 1 /* phi_d [rad] */

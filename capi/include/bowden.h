@@ -2458,8 +2458,8 @@ bowden_result bowden_compensator_init_f32(struct bowden_compensator_f32 *compens
                                           size_t range_count,
                                           struct bowden_about *about);
 
-// Applies a play to the desired torque of the cable. `half_width` [output unit] is at
-// least 0. The default, 0, disables the play.
+// Applies a play to the desired torque of the cable. `half_width` [output unit] must
+// be at least 0. The default, 0, disables the play.
 //
 // If a term reads a velocity that is computed from encoder counts, the desired torque
 // of the cable reverses at each count. The inverse is steep after a reversal, so the
@@ -2515,8 +2515,8 @@ bowden_result bowden_compensator_init_f64(struct bowden_compensator_f64 *compens
                                           size_t range_count,
                                           struct bowden_about *about);
 
-// Applies a play to the desired torque of the cable. `half_width` [output unit] is at
-// least 0. The default, 0, disables the play.
+// Applies a play to the desired torque of the cable. `half_width` [output unit] must
+// be at least 0. The default, 0, disables the play.
 //
 // If a term reads a velocity that is computed from encoder counts, the desired torque
 // of the cable reverses at each count. The inverse is steep after a reversal, so the
@@ -2594,8 +2594,8 @@ bowden_result bowden_edge_velocity_step_f64(struct bowden_edge_velocity_f64 *edg
                                             double dt,
                                             struct bowden_edge_velocity_output_f64 *out);
 
-// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] is at
-// least 0; with 0 the output is the sample. `about` may be null.
+// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] must be
+// at least 0; with 0 the output equals the sample. `about` may be null.
 bowden_result bowden_low_pass_init_f32(struct bowden_low_pass_f32 *filter,
                                        float time_constant,
                                        struct bowden_about *about);
@@ -2633,8 +2633,8 @@ bowden_result bowden_biquad_step_f32(struct bowden_biquad_f32 *filter,
                                      float dt,
                                      float *output);
 
-// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] is at
-// least 0; with 0 the output is the sample. `about` may be null.
+// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] must be
+// at least 0; with 0 the output equals the sample. `about` may be null.
 bowden_result bowden_low_pass_init_f64(struct bowden_low_pass_f64 *filter,
                                        double time_constant,
                                        struct bowden_about *about);
@@ -2749,7 +2749,7 @@ bowden_result bowden_inverse_step_f64(struct bowden_inverse_f64 *inverse,
                                       double *input);
 
 // Checks the settings, initialises the controller, and sets its two arrays of `cells`
-// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
+// numbers to zero. `cells` must be at least lead + 2*half_width + 9 and at most
 // BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
 //
 // The caller owns the arrays, which must exist for as long as the object is used. The
@@ -2798,7 +2798,7 @@ bowden_result bowden_iterative_learning_step_f32(struct bowden_iterative_learnin
                                                  struct bowden_iterative_learning_output_f32 *out);
 
 // Checks the settings, initialises the controller, and sets its two arrays of `cells`
-// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
+// numbers to zero. `cells` must be at least lead + 2*half_width + 9 and at most
 // BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
 //
 // The caller owns the arrays, which must exist for as long as the object is used. The
@@ -3200,8 +3200,8 @@ bowden_result bowden_plausible_step_f64(struct bowden_plausible_f64 *plausible,
                                         uint32_t moves,
                                         struct bowden_plausible_output_f64 *out);
 
-// Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
-// least 0; with 0 the output is the input. `about` may be null.
+// Initialises a play operator; see bowden_play_step. `half_width` [input unit] must be
+// at least 0; with 0 the output equals the input. `about` may be null.
 bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
                                    float half_width,
                                    struct bowden_about *about);
@@ -3211,14 +3211,14 @@ bowden_result bowden_play_init_f32(struct bowden_play_f32 *play,
 //
 //     y+ = clamp(y, x - r, x + r)
 //
-// An oscillation of the input within 2*r does not move the output. At the input of a
-// hysteresis model, a play operator prevents reversals due to sensor noise. The first
-// output equals the first good sample. If the input is not finite, the last output is
-// held (BOWDEN_RESULT_HELD).
+// An oscillation of the input with a peak-to-peak amplitude of up to 2*r does not move
+// the output. At the input of a hysteresis model, a play operator prevents reversals
+// due to sensor noise. The first output equals the first good sample. If the input is
+// not finite, the last output is held (BOWDEN_RESULT_HELD).
 bowden_result bowden_play_step_f32(struct bowden_play_f32 *play, float input, float *output);
 
-// Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
-// least 0; with 0 the output is the input. `about` may be null.
+// Initialises a play operator; see bowden_play_step. `half_width` [input unit] must be
+// at least 0; with 0 the output equals the input. `about` may be null.
 bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
                                    double half_width,
                                    struct bowden_about *about);
@@ -3228,10 +3228,10 @@ bowden_result bowden_play_init_f64(struct bowden_play_f64 *play,
 //
 //     y+ = clamp(y, x - r, x + r)
 //
-// An oscillation of the input within 2*r does not move the output. At the input of a
-// hysteresis model, a play operator prevents reversals due to sensor noise. The first
-// output equals the first good sample. If the input is not finite, the last output is
-// held (BOWDEN_RESULT_HELD).
+// An oscillation of the input with a peak-to-peak amplitude of up to 2*r does not move
+// the output. At the input of a hysteresis model, a play operator prevents reversals
+// due to sensor noise. The first output equals the first good sample. If the input is
+// not finite, the last output is held (BOWDEN_RESULT_HELD).
 bowden_result bowden_play_step_f64(struct bowden_play_f64 *play, double input, double *output);
 
 // Checks the settings and initialises the estimator. `about` may be null.
@@ -3298,8 +3298,8 @@ bowden_result bowden_relay_acknowledge_f32(struct bowden_relay_f32 *relay);
 // Sets `latched` to 1 if the safe command is latched, otherwise to 0.
 bowden_result bowden_relay_is_latched_f32(const struct bowden_relay_f32 *relay, uint32_t *latched);
 
-// Computes PI gains from the result of an experiment. `rule` is one of bowden_pi_rule
-// (otherwise BOWDEN_RESULT_ERROR_CHOICE).
+// Computes PI gains from the result of an experiment. `rule` must be one of
+// bowden_pi_rule (otherwise BOWDEN_RESULT_ERROR_CHOICE).
 //
 // A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
 // The result is zero until the experiment is done. To continue with these gains, call
@@ -3336,8 +3336,8 @@ bowden_result bowden_relay_acknowledge_f64(struct bowden_relay_f64 *relay);
 // Sets `latched` to 1 if the safe command is latched, otherwise to 0.
 bowden_result bowden_relay_is_latched_f64(const struct bowden_relay_f64 *relay, uint32_t *latched);
 
-// Computes PI gains from the result of an experiment. `rule` is one of bowden_pi_rule
-// (otherwise BOWDEN_RESULT_ERROR_CHOICE).
+// Computes PI gains from the result of an experiment. `rule` must be one of
+// bowden_pi_rule (otherwise BOWDEN_RESULT_ERROR_CHOICE).
 //
 // A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
 // The result is zero until the experiment is done. To continue with these gains, call

@@ -133,8 +133,8 @@ macro_rules! compensator {
                 unsafe { told(parts(), about) }
             }
 
-            /// Applies a play to the desired torque of the cable. `half_width` [output unit] is at
-            /// least 0. The default, 0, disables the play.
+            /// Applies a play to the desired torque of the cable. `half_width` [output unit] must
+            /// be at least 0. The default, 0, disables the play.
             ///
             /// If a term reads a velocity that is computed from encoder counts, the desired torque
             /// of the cable reverses at each count. The inverse is steep after a reversal, so the

@@ -40,8 +40,8 @@ macro_rules! filters {
                 const MAGIC: u64 = $low_pass;
             }
 
-            /// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] is at
-            /// least 0; with 0 the output is the sample. `about` may be null.
+            /// Initialises a low-pass filter; see bowden_low_pass_step. `time_constant` [s] must be
+            /// at least 0; with 0 the output equals the sample. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_low_pass_init_ $f>](
                 filter: *mut [<bowden_low_pass_ $f>],

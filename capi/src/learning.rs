@@ -142,7 +142,7 @@ macro_rules! learning {
             }
 
             /// Checks the settings, initialises the controller, and sets its two arrays of `cells`
-            /// numbers to zero. `cells` is at least lead + 2*half_width + 9 and at most
+            /// numbers to zero. `cells` must be at least lead + 2*half_width + 9 and at most
             /// BOWDEN_CELLS. If there is an error, the arrays do not change. `about` may be null.
             ///
             /// The caller owns the arrays, which must exist for as long as the object is used. The

@@ -25,8 +25,8 @@ macro_rules! play {
                 const MAGIC: u64 = $magic;
             }
 
-            /// Initialises a play operator; see bowden_play_step. `half_width` [input unit] is at
-            /// least 0; with 0 the output is the input. `about` may be null.
+            /// Initialises a play operator; see bowden_play_step. `half_width` [input unit] must be
+            /// at least 0; with 0 the output equals the input. `about` may be null.
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_init_ $f>](
                 play: *mut [<bowden_play_ $f>],
@@ -45,10 +45,10 @@ macro_rules! play {
             ///
             ///     y+ = clamp(y, x - r, x + r)
             ///
-            /// An oscillation of the input within 2*r does not move the output. At the input of a
-            /// hysteresis model, a play operator prevents reversals due to sensor noise. The first
-            /// output equals the first good sample. If the input is not finite, the last output is
-            /// held (BOWDEN_RESULT_HELD).
+            /// An oscillation of the input with a peak-to-peak amplitude of up to 2*r does not move
+            /// the output. At the input of a hysteresis model, a play operator prevents reversals
+            /// due to sensor noise. The first output equals the first good sample. If the input is
+            /// not finite, the last output is held (BOWDEN_RESULT_HELD).
             #[no_mangle]
             pub unsafe extern "C" fn [<bowden_play_step_ $f>](
                 play: *mut [<bowden_play_ $f>],

@@ -310,8 +310,8 @@ macro_rules! relay {
                 })())
             }
 
-            /// Computes PI gains from the result of an experiment. `rule` is one of bowden_pi_rule
-            /// (otherwise BOWDEN_RESULT_ERROR_CHOICE).
+            /// Computes PI gains from the result of an experiment. `rule` must be one of
+            /// bowden_pi_rule (otherwise BOWDEN_RESULT_ERROR_CHOICE).
             ///
             /// A result that is zero or not finite is an error (BOWDEN_RESULT_ERROR_OUT_OF_RANGE).
             /// The result is zero until the experiment is done. To continue with these gains, call

@@ -120,9 +120,9 @@ crate::checked! {
 
     /// Iterative learning control without forgetting.
     ///
-    /// - `gain` multiplies the error \[command unit/output unit\]. It is nonzero and must have the
+    /// - `gain` multiplies the error \[command unit/output unit\]. It must be nonzero and have the
     ///   sign of the plant's gain.
-    /// - `limit` is positive and bounds the magnitude of the learned values \[command unit\].
+    /// - `limit` must be positive; it bounds the magnitude of the learned values \[command unit\].
     /// - `lead` is the number of cells between a command and its effect.
     /// - `half_width` is the half-width of the triangle \[cells\]; 0 means no filter.
     ///

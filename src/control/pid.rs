@@ -30,7 +30,7 @@ pub use state::PidState;
 use super::{Applied, Fault, Output, Status, Telemetry};
 use crate::error::is_usable;
 use crate::fault::{fault_of_dt, unless_finite};
-use crate::signal::{clamp, wrapped, Compensated, Derivative};
+use crate::signal::{clamp, greatest, least, wrapped, Compensated, Derivative};
 use crate::Real;
 use state::Last;
 use step::stopped;
@@ -222,9 +222,13 @@ impl<T: Real> Pid<T> {
             let full = sent.map_or(before, |sent| sent - rest);
             state.integral = stopped(state.integral, before, full, less);
             last.change = T::ZERO;
-            if sent.is_some() {
-                last.unlimited = rest + state.integral.value;
-            }
+            let sum = rest + state.integral.value;
+            // Beyond an unknown limit, back-calculation has nothing to correct.
+            last.unlimited = match (sent, less) {
+                (Some(_), _) => sum,
+                (None, true) => greatest(sum, out),
+                (None, false) => least(sum, out),
+            };
         }
     }
 
@@ -234,7 +238,10 @@ impl<T: Real> Pid<T> {
     /// terms add up to the applied command. If the same limit clamps the old sum and the new sum,
     /// the integral is not adjusted. The new sum may then lie beyond this limit. The next command
     /// differs from the applied command only by one increment of the integral. If the new limits
-    /// exclude the command, the limits take priority.
+    /// exclude the command, the limits take priority. If the new settings have a slew-rate limit and
+    /// the old sum lies beyond the command, the command continues towards this sum at the slew rate.
+    /// If the new settings have no [`period`](super::PidSettings::period) but the old settings had
+    /// one, the command jumps when the reference is a turn away.
     ///
     /// With `k_i` = 0, the integral then returns to zero; see [`PidSettings::k_i`]. Before you
     /// change to PIV, pass samples that contain the velocity. Without an earlier good sample, or if
@@ -254,9 +261,12 @@ impl<T: Real> Pid<T> {
     /// # Ok::<(), bowden::Error>(())
     /// ```
     pub fn bumpless_transfer(&self, state: &mut PidState<T>) {
-        let Some(last) = state.last else {
+        let Some(mut last) = state.last else {
             return;
         };
+        if let Some(period) = self.settings.period {
+            last.reference = last.measured - wrapped(last.measured - last.reference, period);
+        }
         let rest = self.rest(&last, state.rate);
         let (command, limits) = (state.command(), &self.settings.limits);
         let (even, ramps) = (command - rest, limits.slew().is_some());

@@ -49,10 +49,10 @@ crate::checked::stored! {
     /// The safe command after repeated bad samples.
     ///
     /// A bad sample adds `weight` to a fault counter, and a good sample subtracts 1. When the
-    /// counter reaches `after·weight`, the safe command is applied and latched. This happens at the
-    /// latest
-    /// - at the `after`-th consecutive bad sample, and
-    /// - after n samples of which B are bad, if `(weight + 1)·B − n ≥ after·weight`.
+    /// counter reaches `after·weight`, the safe command is applied and latched. The safe command is
+    /// applied no later than the earlier of
+    /// - the `after`-th consecutive bad sample;
+    /// - the end of any n samples of which B are bad, if `(weight + 1)·B − n ≥ after·weight`.
     ///
     /// With a weight of 4, the second condition is met if, over a sufficiently long time, more than
     /// one sample in five is bad.

@@ -108,9 +108,9 @@ macro_rules! effects {
                 }
             }
 
-            /// Passes the regressor at each sample of a record to `take`. The values equal those of
-            /// [`regressor`](Self::regressor) bit for bit. For many samples, this function is
-            /// faster.
+            /// Passes the regressor at each sample of a record to `take`. The values equal the
+            /// results of [`regressor`](Self::regressor) bit for bit. For many samples, this
+            /// function is faster.
             pub fn regressors(
                 &self,
                 state: &mut EffectState<T>,
@@ -306,8 +306,8 @@ impl<T: Real> Effect<T> {
     }
 
     /// Passes the contribution of a term with this gain at each sample of a record to `take`. The
-    /// values equal those of [`contribution`](Self::contribution) bit for bit. For many samples,
-    /// this function is faster.
+    /// values equal the results of [`contribution`](Self::contribution) bit for bit. For many
+    /// samples, this function is faster.
     pub fn contributions(
         &self,
         gain: T,

@@ -179,8 +179,8 @@ impl<T: Real> BoucWen<T> {
     /// discrete step.
     ///
     /// This function does not use the closed forms for `n = 1` and `n = 2`. For these n, the
-    /// resulting eta differs from that of [`advance`](Self::advance) by the error of the general
-    /// step. In saturation, all derivatives are zero.
+    /// resulting eta differs from the result of [`advance`](Self::advance) by the error of the
+    /// general step. In saturation, all derivatives are zero.
     #[inline]
     #[must_use]
     pub fn advance_with_sensitivity(
@@ -233,7 +233,7 @@ impl<T: Real> BoucWen<T> {
     /// Slope d(eta)/d(input) [1/input unit] in the direction given by the sign of `direction`.
     ///
     /// The slope is the right-hand side of (2) and (7) divided by `x'`. It lies in
-    /// `[0, rho·max(1, 2·sigma)]`.
+    /// `[0, 2·sigma·rho]`.
     #[inline]
     #[must_use]
     pub fn slope(&self, eta: T, direction: T) -> T {

@@ -4,7 +4,7 @@ use crate::Real;
 
 /// Clamps `x` to `[low, high]`. NaN stays NaN.
 ///
-/// If `low > high`, the result is `low` for `x < low`, otherwise `high` for `x > high`.
+/// If `low > high`, the result is `low` for `x < low` and `high` for all other x.
 ///
 /// ```
 /// use bowden::signal::clamp;

@@ -1,6 +1,6 @@
 //! Velocity of a slow encoder from the time between its counts.
 
-use super::{clamp, RateStatus};
+use super::{clamp, gap_after, RateStatus};
 use crate::error::above_zero;
 use crate::fault::{fault_of_dt, Fault};
 use crate::{Error, Real};
@@ -113,7 +113,7 @@ crate::checked! {
         Ok(EdgeVelocity { count, time_constant, longest_gap, period })
     }
 
-    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// Sets the period \[channel unit\] of positions that wrap, such as counter readings. The
     /// period must be positive.
     ///
     /// Between two good samples, the axis must move by less than half a period.
@@ -154,7 +154,7 @@ impl<T: Real> EdgeVelocity<T> {
             return RateStatus::Held(fault_of_dt(dt, T::HIGHEST).unwrap_or(Fault::Dt));
         }
         // At least dt, also where a stored gap was negative.
-        state.gap = clamp(state.gap + dt, dt, T::HIGHEST);
+        state.gap = clamp(gap_after(state.gap, dt, T::HIGHEST), dt, T::HIGHEST);
         if !position.is_finite() {
             return RateStatus::Held(Fault::Position);
         }

@@ -189,7 +189,7 @@ crate::checked! {
         Err(Error::OutOfRange("cutoff"))
     }
 
-    /// Sets the period \[channel unit\] of positions that wrap, such as those of a counter. The
+    /// Sets the period \[channel unit\] of positions that wrap, such as counter readings. The
     /// period must be positive.
     ///
     /// The position of the motion is unwrapped, so it continues when the counter wraps. Between two

@@ -57,7 +57,7 @@ impl Named {
             Self::Owed => "what the sum of z owes reproduces itself",
             Self::ZLimit => "Z <= z_limit",
             Self::Command => "(r + S + lambda*Z + load)/alpha- <= limit of the command",
-            Self::Overflow => "no number of the step overflows, those of the estimates included",
+            Self::Overflow => "no number of the step overflows, including the numbers of the estimates",
             Self::Reserve => "(r + load + lambda*Z - S)/alpha- <= limit of the command",
             Self::Waiting => "h*lambda*(2 + g+*k) <= 1",
             Self::Slack => "lambda^2*Z <= lambda*S + 2*g-*Z",

@@ -119,8 +119,9 @@ impl PeakRounded {
     /// for exact numbers.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if these settings and
-    /// this plant give no inequality. [`Error::Capacity`] for more than 16 regressors.
+    /// [`Error::NonFinite`], [`Error::OutOfRange`] or [`Error::Inadmissible`] if no inequality can
+    /// be formed for these settings and this plant. [`Error::Capacity`] for more than 16
+    /// regressors.
     pub fn examine<T: Real, const N: usize>(
         settings: &AdaptiveSettings<T, N>,
         plant: &Plant<f64, N>,

@@ -92,11 +92,11 @@ pub fn load(path: &Path) -> Result<String, Failure> {
     let size = std::fs::metadata(path).map_err(|e| failed(&e))?.len();
     if size > LARGEST {
         return Err(failed(
-            &"the file is larger than any model file; give a file written by `identify --model-out`",
+            &"the file is larger than any model file; pass a file written by `identify --model-out`",
         ));
     }
     let bytes = std::fs::read(path).map_err(|e| failed(&e))?;
     String::from_utf8(bytes).map_err(|_| {
-        failed(&"the file is not text; give a TOML file written by `identify --model-out`")
+        failed(&"the file is not text; pass a TOML file written by `identify --model-out`")
     })
 }

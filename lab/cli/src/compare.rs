@@ -21,8 +21,8 @@ pub struct Compare {
     /// Move the conduit during the trials, so that B, kappa_eta and T0 drift.
     #[arg(long)]
     varying: bool,
-    /// Follow a gait, with an ankle push-off once per second, instead of the reference of Nguyen
-    /// et al. (2018). This also runs a controller with iterative learning.
+    /// Follow a gait, with an ankle push-off once per second, instead of the reference of Nguyen et
+    /// al. (2018). With this option, a controller with iterative learning also runs.
     #[arg(long, conflicts_with = "effect")]
     gait: bool,
     /// Length of a trial [s].

@@ -32,7 +32,7 @@ pub struct Generate {
     /// RMS noise of the output, in the unit of the output.
     #[arg(long, default_value_t = 0.05)]
     noise: f64,
-    /// Correlation of the noise between successive samples. 0 gives white noise.
+    /// Lag-one autocorrelation of the noise, 0 to below 1. 0 gives white noise.
     #[arg(long, default_value_t = 0.0)]
     colour: f64,
     /// Half-width of a play in series, between the input and the transmission

@@ -51,7 +51,7 @@ fn named(option: &str, path: &Path) -> Result<(), Failure> {
 fn writable(option: &str, path: &Path, read: &[&Path]) -> Result<(), Failure> {
     let refuse = |message: String| Err(format!("{option} {}: {message}", path.display()));
     if path.is_dir() {
-        return refuse("this is a folder; give the name of a file".to_owned());
+        return refuse("this is a folder; pass the name of a file".to_owned());
     }
     if let Some(other) = read.iter().find(|other| same(path, other)) {
         return refuse(format!(

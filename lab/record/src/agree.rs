@@ -27,7 +27,7 @@ pub fn agree(records: &mut [Record]) -> Result<(), RecordError> {
     for (index, later) in records.iter().enumerate() {
         if let Some(earlier) = records[..index].iter().find(|earlier| same(earlier, later)) {
             let error = RecordError::new(format!(
-                "the samples are the same as in {}; give each record once",
+                "the samples are the same as in {}; pass each record once",
                 earlier.path
             ));
             return Err(error.in_file(&later.path));

@@ -1,9 +1,9 @@
-//! Text whose columns are separated by blanks, as `numpy.savetxt`, MATLAB's `save -ascii` and
+//! Text whose columns are separated by spaces, as `numpy.savetxt`, MATLAB's `save -ascii` and
 //! gnuplot write it.
 //!
-//! In such a text, blanks separate the numbers, and the rows contain no tab, `;` or `,`. The text
-//! is then read as if tabs separated the columns. Names may contain blanks. A unit in brackets
-//! belongs to the name before it. If this rule does not give one name for each column, two blanks
+//! In such a text, spaces separate the numbers, and the rows contain no tab, `;` or `,`. The text
+//! is then read as if tabs separated the columns. Names may contain spaces. A unit in brackets
+//! belongs to the name before it. If this rule does not give one name for each column, two spaces
 //! separate the names.
 
 use super::layout::TABLE;

@@ -56,8 +56,8 @@ pub(super) const SORT: &str = "; sort the rows by time, or save each record in a
 pub(super) fn restart(stamp: &str) -> &'static str {
     match (has_date(stamp), is_minutes(stamp)) {
         (true, _) => SORT,
-        (_, true) => "; if the record passes a full hour, write the hours too, as in 01:59:50.2",
-        _ => "; if the record passes midnight, add a date",
+        (_, true) => "; if the record spans a full hour, write the hours too, as in 01:59:50.2",
+        _ => "; if the record spans midnight, add a date",
     }
 }
 

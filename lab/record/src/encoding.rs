@@ -117,7 +117,7 @@ fn utf_16(bytes: &[u8], own: Utf16) -> Result<Cow<'static, str>, RecordError> {
     match text.find('\0') {
         Some(at) => Err(RecordError::at(
             line_of(&text[..at]),
-            "a character is NUL, so the file is binary; give CSV text",
+            "a character is NUL, so the file is neither text nor a known binary format; export it as CSV",
         )),
         None => Ok(Cow::Owned(text)),
     }
@@ -132,7 +132,7 @@ fn narrow(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<&'static str>), RecordEr
             .count()
     };
     if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
-        let message = format!("byte {offset} is NUL, so the file is binary; give CSV text");
+        let message = format!("byte {offset} is NUL, so the file is neither text nor a known binary format; export it as CSV");
         return Err(RecordError::at(line_of(offset), message));
     }
     let error = match std::str::from_utf8(bytes) {

@@ -14,13 +14,17 @@ pub(super) fn load(path: &Path, label: &str) -> Result<Vec<u8>, RecordError> {
         refuse(match error.kind() {
             ErrorKind::NotFound => "no such file".to_owned(),
             ErrorKind::PermissionDenied => "no permission to read the file".to_owned(),
-            ErrorKind::IsADirectory => "this is a folder; give a CSV file".to_owned(),
+            ErrorKind::IsADirectory => {
+                "this is a folder; pass a record file, such as CSV, JSON or .xlsx".to_owned()
+            }
             _ => format!("the file cannot be read: {error}"),
         })
     };
     // A pipe has no size and is fine; only a folder is refused beforehand.
     if std::fs::metadata(path).map_err(failed)?.is_dir() {
-        return Err(refuse("this is a folder; give a CSV file".to_owned()));
+        return Err(refuse(
+            "this is a folder; pass a record file, such as CSV, JSON or .xlsx".to_owned(),
+        ));
     }
     let mut file = File::open(path).map_err(failed)?;
     let mut bytes = Vec::new();

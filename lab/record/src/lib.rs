@@ -333,7 +333,7 @@ fn table_record(decoded: Decoded<'_>, options: &Options) -> Result<Record, Recor
     let table = segments::of(table, options)?;
     let mut notes: Vec<String> = decoded.note.into_iter().collect();
     if matches!(text, Cow::Owned(_)) {
-        notes.push("columns are separated by blanks".to_owned());
+        notes.push("columns are separated by spaces".to_owned());
     }
     notes.extend(table.notes);
     let rows = Source::Text(Box::new(table.rows));

@@ -171,7 +171,7 @@ fn no_number(cell: &str) -> String {
     let is_mark = is_sheet_error(cell) || MARKS.contains(&upper.trim_start_matches('+'));
     if is_mark || MARKS.contains(&upper.trim_start_matches('-')) {
         return format!(
-            "`{text}` is a placeholder, not a number; empty the cell, and use --drop-bad to drop the row"
+            "`{text}` is a placeholder, not a number; clear the cell, and use --drop-bad to drop the row"
         );
     }
     match has_thousands(cell) {

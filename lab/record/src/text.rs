@@ -229,7 +229,7 @@ impl<'a> Row<'a> {
     /// A cell, trimmed and without its quotes. The text is empty if the cell does not exist.
     pub(super) fn cell(&self, index: usize) -> &'a str {
         let cell = self.cells.get(index).unwrap_or_default().trim();
-        // Quotes behind a blank, `t, "x"`, are none to the CSV standard.
+        // In the CSV standard, quotes after a space (`t, "x"`) are part of the cell.
         cell.strip_prefix('"')
             .and_then(|inner| inner.strip_suffix('"'))
             .map_or(cell, str::trim)

@@ -226,7 +226,7 @@ fn no_model_is_refused(question: &Question<'_>, path: &Path) -> Result<(), Strin
     match is_model(question, Some(path)) {
         true => Ok(()),
         false => Err(format!(
-            "{}: with --gains, give a model written by `bowden identify --model-out`",
+            "{}: with --gains, pass a model written by `bowden identify --model-out`",
             path.display()
         )),
     }
@@ -246,7 +246,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
         .and_then(|table| Some(table.get("schema")?.as_str()?.to_owned()));
     match schema.as_deref() {
         Some("bowden.model/1") if question.setup.is_some() => Err(format!(
-            "{label}: this file is a model; with --model, give gains from `bowden design`"
+            "{label}: this file is a model; with --model, pass gains from `bowden design`"
         )),
         Some("bowden.model/1") | None => {
             let mut gains = setup(question, Some(path))?;
@@ -262,7 +262,7 @@ fn inputs(question: &Question<'_>) -> Result<(Setup, Option<GainsFile>, bool), S
             let gains = GainsFile::parse(&text, &label)?;
             let Some(model) = question.setup else {
                 return Err(format!(
-                    "{label}: gains from `bowden design` need their model; give it with --model MODEL.toml"
+                    "{label}: gains from `bowden design` need their model; pass it with --model MODEL.toml"
                 ));
             };
             // What the gains were designed for is what they are tried with.
@@ -295,7 +295,7 @@ pub fn certify(setup: Option<&Path>) -> Result<Certified, String> {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         if is_of_design(&text) {
             return Err(format!(
-                "{}: this file was written by `bowden design`; give gains and rig in one file, or certify this file with `bowden certify FILE`",
+                "{}: this file was written by `bowden design`; pass gains and rig in one file, or certify this file with `bowden certify FILE`",
                 path.display()
             ));
         }
@@ -471,7 +471,7 @@ fn first_gain(found: &Found) -> String {
     });
     if let Some((controller, before, after)) = errors {
         text.push_str(&format!(
-            " With the found model as a feed-forward, the true error of {controller} changes from {before:.4} to {after:.4} N·m rms."
+            " With a feed-forward from the identified model, the true error of {controller} changes from {before:.4} to {after:.4} N·m rms."
         ));
     }
     text

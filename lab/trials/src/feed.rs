@@ -111,7 +111,7 @@ impl FeedForward {
         ranges: &[BenchRange<f64>],
         surroundings: Surroundings,
     ) -> Result<Self, String> {
-        let refused = |e: bowden::Error| format!("the model as a feed-forward: {e}");
+        let refused = |e: bowden::Error| format!("the feed-forward from the model: {e}");
         let (nearest, changed) = Compensator::try_nearest(model).map_err(refused)?;
         let is_fed = |place: usize| changed.left_out().all(|left_out| left_out != place);
         let changed_words = bowden_lab::export::invertible::words(&changed, model.terms());
@@ -125,7 +125,7 @@ impl FeedForward {
                 "phi_p" => Ok(Channel::Proximal),
                 "phi_d" => Ok(Channel::Distal),
                 other => Err(format!(
-                    "the model as a feed-forward: channel {other:?} is neither phi_p nor phi_d"
+                    "the feed-forward from the model: channel {other:?} is neither phi_p nor phi_d"
                 )),
             })
             .collect::<Result<Vec<_>, _>>()?;

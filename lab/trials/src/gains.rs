@@ -204,7 +204,7 @@ fn at(text: &str, label: &str, table: &str, key: &str, line: &str) -> String {
 pub(crate) fn message(error: &toml::de::Error, text: &str, label: &str) -> String {
     if text.trim_start().starts_with('{') {
         return format!(
-            "{label}: this file is JSON; give TOML, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
+            "{label}: this file is JSON; pass TOML, as `bowden identify --model-out MODEL.toml` and `bowden design --out GAINS.toml` write it"
         );
     }
     let what = error.message().replace('\n', " ");

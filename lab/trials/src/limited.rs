@@ -26,7 +26,7 @@ impl AtLimit {
         };
         let both = [
             told(self.slew, "at its slew-rate limit"),
-            told(self.range, "at an end of its range"),
+            told(self.range, "at a limit of its range"),
         ];
         let both: Vec<String> = both.into_iter().flatten().collect();
         (!both.is_empty()).then(|| both.join(" and "))
@@ -94,7 +94,7 @@ mod tests {
         assert!((shares.slew - 6.0 / 9.0).abs() < 1e-12, "{shares:?}");
         assert_eq!(
             shares.words().unwrap(),
-            "at its slew-rate limit in 67 % of the samples and at an end of its range in 22 % of the samples"
+            "at its slew-rate limit in 67 % of the samples and at a limit of its range in 22 % of the samples"
         );
         assert!(AtLimit::default().words().is_none());
     }

@@ -27,7 +27,7 @@ impl Setup {
     pub fn parse(text: &str, label: &str) -> Result<Self, String> {
         if is_of_design(text) {
             return Err(format!(
-                "{label}: this file was written by `bowden design`; give a model written by `bowden identify --model-out`, or gains and rig in one file"
+                "{label}: this file was written by `bowden design`; pass a model written by `bowden identify --model-out`, or gains and rig in one file"
             ));
         }
         let failed = |e: toml::de::Error| message(&e, text, label);

@@ -48,8 +48,8 @@ impl<T: Real, const N: usize> Compensator<T, N> {
     ///
     /// For the resulting command, the output of the identified model is only approximately the
     /// desired output. To measure the error, run the feed-forward and the identified model in
-    /// series, as `examples/nearest.rs` does. A model that is fitted within the bound usually has a
-    /// smaller error than a model that is changed afterwards.
+    /// series, as `examples/nearest.rs` does. A model that is fitted with this constraint on sigma
+    /// usually has a smaller error than a model that is changed afterwards.
     ///
     /// ```
     /// use bowden::control::Compensator;

@@ -57,10 +57,10 @@ crate::checked! {
 impl<T: Real> NominalPlant<T> {
     /// A plant from the drive's specification.
     ///
-    /// - `gain` is the torque per command unit at rest, nonzero.
-    /// - `inertia` \[kg·m²\] is positive.
-    /// - `damping` \[N·m·s/rad\] is the viscous damping, not negative.
-    /// - `stiffness` \[N·m/rad\] is the stiffness of cable and load in series, positive.
+    /// - `gain` is the torque per command unit at rest. It must be nonzero.
+    /// - `inertia` \[kg·m²\] must be positive.
+    /// - `damping` \[N·m·s/rad\] is the viscous damping. It must not be negative.
+    /// - `stiffness` \[N·m/rad\] is the stiffness of cable and load in series. It must be positive.
     ///
     /// # Errors
     /// [`Error::NonFinite`] or [`Error::OutOfRange`] with the name of the invalid argument or of an

@@ -56,7 +56,7 @@ crate::checked::stored! {
         pub(crate) velocity: T,
         pub(crate) feed_forward: T,
         pub(crate) unlimited: T,
-        /// Change of the integral at this sample, before the limits cut it.
+        /// Change of the integral at this sample.
         pub(crate) change: T,
     }
 }

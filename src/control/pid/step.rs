@@ -88,12 +88,14 @@ impl<T: Real> Pid<T> {
         let mut command = end;
         if !PLAIN {
             if let Some(limit) = s.integral_limit {
-                let (low, high) = (least(-limit, before.value), greatest(limit, before.value));
+                let own = state.integral.value;
+                let (low, high) = (least(-limit, own), greatest(limit, own));
                 integral = integral.within(low, high);
                 command = rest + integral.value;
             }
             command = limits.apply(state.command(), command, dt);
         }
+        last.change = integral.value - before.value;
         last.unlimited = rest + integral.value;
         Some(state.moved_on(command, last, integral, rate))
     }

@@ -46,7 +46,7 @@ crate::data! {
         ///
         /// The first sample with a larger deviation ends the experiment.
         pub most_deviation: T,
-        /// Number of successive cycles in the average, at least two.
+        /// Number of consecutive cycles in the average, at least two.
         pub cycles: u32,
         /// Largest relative deviation of the period and amplitude of a cycle from the mean of
         /// earlier cycles, between 0 and 1.

@@ -91,10 +91,10 @@ fn on_the_bench(outcome: &Outcome) -> String {
         outcome.seed, found.before, found.after
     );
     if !found.left_out.is_empty() {
-        out += &format!("; not fed forward: {}", found.left_out.join(", "));
+        out += &format!("; not in the feed-forward: {}", found.left_out.join(", "));
     }
     if let Some(changed) = &outcome.fed_with {
-        out += &format!("; no inverse, so fed forward with {changed}");
+        out += &format!("; the model has no inverse, so the feed-forward inverts {changed}");
     }
     out
 }
@@ -118,7 +118,7 @@ fn over_seeds(found: &Found) -> Columns {
 
 fn seed(outcome: &Outcome) -> Columns {
     let name = format!("True rms [N·m], seed {}", outcome.seed);
-    let header = [&name, "no model", "baseline", "found terms", "change"];
+    let header = [&name, "no model", "baseline", "identified", "change"];
     let mut rows = Columns::new(&header, &[1, 4]);
     for pair in &outcome.pairs {
         rows.add([
@@ -133,10 +133,10 @@ fn seed(outcome: &Outcome) -> Columns {
 }
 
 const NOTES: [&str; 4] = [
-    "Baseline: the feed-forward is only the Bouc-Wen model, fitted to the bench record.",
-    "Found terms: the feed-forward is the Bouc-Wen model with the terms that `identify` adds, refitted together.",
-    "Third regressor: the found terms form a regressor of the adaptive law, with their bench values as priors. The baseline is the adaptive law without these terms.",
-    "Quiet: the gains are a fifth of those of Nguyen et al. (2018), and the loop reveals improvements that the full gains hide.",
+    "Baseline: the feed-forward inverts only the Bouc-Wen model, fitted to the bench record.",
+    "Identified: the feed-forward inverts the Bouc-Wen model with the terms that `identify` adds, refitted together.",
+    "Third regressor: the identified terms form a regressor of the adaptive law, with their bench values as priors. The baseline is the adaptive law without these terms.",
+    "Quiet: the gains are a fifth of those of Nguyen et al. (2018), so improvements are visible that the full gains hide.",
 ];
 
 /// Schema `bowden.compare/1`.

@@ -34,7 +34,7 @@ pub fn text(designed: &Designed, width: Width, verbose: bool) -> String {
     }
     let compare = match designed.bounds.output {
         Some(_) => "bowden compare --model MODEL.toml --gains GAINS.toml",
-        None => "`bowden compare` cannot use this model, because its record gives no reference",
+        None => "`bowden compare` cannot use this model, because no reference can be derived from its record",
     };
     let compare = match verbose {
         true => compare.to_owned(),
@@ -126,7 +126,8 @@ fn plant(designed: &Designed) -> [String; 3] {
     };
     let range = match b.output {
         Some([low, high]) => format!("within {} to {} N·m", short(low), short(high)),
-        None => "no torque is reached in both directions of motion".to_owned(),
+        None => "no output torque occurs in both directions of motion, so there is no reference"
+            .to_owned(),
     };
     [
         format!(
@@ -154,7 +155,7 @@ fn limits(designed: &Designed) -> [String; 2] {
             short(b.slew)
         ),
         format!(
-            "longest dt {} s · safe command {} after {} successive bad samples",
+            "longest dt {} s · safe command {} after {} consecutive bad samples",
             short(b.longest_dt),
             short(b.fallback_command),
             b.fallback_after
@@ -232,7 +233,7 @@ fn details(designed: &Designed) -> Vec<String> {
         ),
         "the plant model includes the transmission and the delay, but not the inertia or the spring of a joint".to_owned(),
         "reference: no rate is guaranteed if the smallest slope is near zero or negative".to_owned(),
-        "slope: between B and B - kappa_eta·rho·max(1, 2·sigma), from the Bouc-Wen equation".to_owned(),
+        "slope: between B and B - 2·kappa_eta·sigma·rho, from the Bouc-Wen equation".to_owned(),
         "command limits: the input range of the record. For a faster reference, record faster inputs".to_owned(),
         format!(
             "slew-rate limit: {} units/s for the noise, {} units/s for the fastest input of the record",

@@ -201,7 +201,7 @@ fn answer(out: &mut String, power: &PowerFacts, width: Width) {
         (colour, &headline),
     );
     let words = format!(
-        "For each effect, the table lists the smallest amplitude that was found in at least {:.0} % of {} trials.",
+        "For each effect, the table lists the smallest amplitude at which the search found the effect in at least {:.0} % of {} trials.",
         100.0 * SHARE,
         power.trials
     );

@@ -33,7 +33,8 @@ coefficient   Gain of the term in the final model with its 95 % interval (jackkn
               other terms can replace this one.
 p             Probability that chance alone gives an improvement at least this large (exact
               sign-flip test over sixteen blocks). A term is significant if p is at most
-              0.01 / (number of effect families x number of channels).
+              0.01 / (number of effect families x number of channels). A family is a group of
+              similar effects, such as drag (drag-quadratic, drag-cubic).
 blocks improved
               Number of the sixteen blocks on which the term lowers the error, with its
               coefficients fitted to the other fifteen.

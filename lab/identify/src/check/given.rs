@@ -81,7 +81,7 @@ impl Given {
             Some(other) => return Err(format!("schema {other:?} must be {SCHEMA}")),
             None => {
                 return Err(format!(
-                    "no schema: give a model written by `bowden identify --model-out` ({SCHEMA})"
+                    "no schema: pass a model written by `bowden identify --model-out` ({SCHEMA})"
                 ))
             }
         }

@@ -244,8 +244,8 @@ impl Check {
         at_home(&self.about).is_some_and(|own| own > NOISE * self.data.noise_floor)
     }
 
-    /// Whether the model misses up to a quarter more than it may, and was not exact where it came from:
-    /// that is what another motion does to it (`docs/results/transfer.md`).
+    /// Whether the error exceeds the limit by at most a quarter, and the model was inexact on its
+    /// own record. Another motion often has this effect (`docs/results/transfer.md`).
     #[must_use]
     pub fn is_just_above(&self) -> bool {
         let mut allowed = self.allowed.into_iter();

@@ -243,6 +243,6 @@ pub(super) fn missing(given: &Given, name: &str) -> String {
     let fitted = given.about.definitions.get(name);
     let fitted = fitted.map_or_else(String::new, |own| format!(" (fitted as {own})"));
     format!(
-        "the model reads channel `{name}`{fitted}, but the record has no such channel; give its column with --channel {name}=COL"
+        "the model reads channel `{name}`{fitted}, but the record has no such channel; pass its column with --channel {name}=COL"
     )
 }

@@ -206,7 +206,7 @@ pub enum Finding {
         /// Whether the sign of kappa_x distinguishes a spring from slack.
         sign_tells: bool,
     },
-    /// A creep starts outside the range that the input can explain.
+    /// The fitted initial state of a creep is at its bound, outside the range of the input.
     CreepStartsOutside {
         /// The output's column.
         output: String,
@@ -237,7 +237,7 @@ pub enum Finding {
         /// The output's column.
         output: String,
     },
-    /// The hysteresis loop runs in the opposite sense to that of the output.
+    /// The fitted hysteresis loop is traversed in the opposite direction to the measured loop.
     LoopReversed {
         /// Gain of the hysteresis.
         kappa_eta: f64,

@@ -84,6 +84,6 @@ fn nothing_found(data: &Prepared, ledger: &Ledger, done: &FinalFit) -> String {
             "No effect in the catalogue explains the residual of the baseline model, which is {} of the output's standard deviation on the held-out segment.",
             percent(missed(data, done))
         ),
-        false => "This record shows no effect that the baseline model lacks.".to_owned(),
+        false => "In this record, no effect is missing from the baseline model.".to_owned(),
     }
 }

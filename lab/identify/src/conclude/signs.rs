@@ -89,8 +89,8 @@ fn input_gain(solution: &Solution) -> Option<f64> {
     Some(solution.gains[0] + shares.map(|(i, _)| solution.gain(i)).sum::<f64>())
 }
 
-/// A hysteresis whose loop runs in the opposite sense to that of the output: its gain and the gains
-/// of other parts partly cancel.
+/// A hysteresis whose loop is traversed in the opposite direction to the measured loop. Its gain
+/// and the gains of other parts partly cancel.
 pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     let (data, solution) = (&done.data, &done.solution);
     let structure = &solution.structure;
@@ -123,7 +123,7 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     })
 }
 
-/// Whether the output of a cable leads its input: the loop runs in the opposite sense.
+/// Whether the output of a cable leads its input: the loop is traversed in the opposite direction.
 pub(crate) fn comes_before(data: &Prepared) -> bool {
     let rows = data.split.fit.iter();
     let position = |row: usize| data.input.motion[row * data.stride].position;

@@ -21,19 +21,19 @@ impl Finding {
                     false => "they are in the wrong order".to_owned(),
                     true => format!("`{input}` is the force and `{output}` is the motion (a spring in series with a dashpot creeps under a constant force)"),
                 };
-                format!("The output is the integral of the input: the rate of `{output}`, not its value, follows `{input}`. There was no search. Differentiate `{output}` first, or swap the columns if {swap}.")
+                format!("The output is the integral of the input: the rate of `{output}`, not its value, follows `{input}`. The program did not search for terms. Differentiate `{output}` first, or swap the columns if {swap}.")
             }
             Self::FilesScaled { files, of, unit } => scaled(files, *of, unit.as_deref()),
             Self::LoggedDifferently(suspicion) => suspected(suspicion),
-            Self::RowsShuffled { input, output } => format!("This record gives no model. Neighbouring rows of the input `{input}` are unrelated, but `{output}` follows `{input}` row by row. Are the rows in time order?"),
-            Self::InputAtRest { input } => format!("This record gives no model, because the input `{input}` is at rest and shows only sensor noise. Record a motion."),
+            Self::RowsShuffled { input, output } => format!("No model can be identified from this record. Neighbouring rows of the input `{input}` are unrelated, but `{output}` follows `{input}` row by row. Are the rows in time order?"),
+            Self::InputAtRest { input } => format!("No model can be identified from this record, because the input `{input}` is at rest and shows only sensor noise. Record a motion."),
             Self::ChannelTakesOver { input, explains, channels, alone } => format!(
-                "This is not a model of the transmission. In the final model {}, although in the baseline model the input explains {}. One of the channels repeats the output, as an angle behind a spring does. Omit its column.",
+                "This is not a model of the transmission. In the final model {}, although in the baseline model the input explains {}. One of the channels repeats the output, as an angle downstream of a spring does. Omit its column.",
                 explained(input, *explains, *channels),
                 share(*alone)
             ),
             Self::NothingExplained { input, explains, channels } => format!(
-                "This record gives no model: {}. Is `{input}` the right input in the right file, and is its sensor connected?",
+                "No model can be identified from this record: {}. Is `{input}` the right input in the right file, and is its sensor connected?",
                 explained(input, *explains, *channels)
             ),
             // The reasons why the model must not be used on other data.
@@ -162,21 +162,21 @@ impl Finding {
                 };
                 format!("Presliding and backlash are the same function with opposite signs, so either name is correct{own}.")
             }
-            Self::CreepStartsOutside { output } => format!("The creep starts outside the range of the input. Is this a drift of `{output}`, for example of a sensor that warms up? To find out, record again after the rig has run for longer."),
+            Self::CreepStartsOutside { output } => format!("The fitted initial state of the creep is at its bound, outside the range of the input. Is this a drift of `{output}`, for example of a sensor that warms up? To find out, record again after the rig has run for longer."),
             Self::HysteresisLeftOut => "The model excludes the baseline hysteresis, because this record cannot distinguish it from a spring and an offset.".to_owned(),
             Self::HysteresisCancelled { share } => format!(
                 "On this record, the hysteresis differs from a spring and an offset by only {} of the output. The gains of these three parts nearly cancel, so the model holds only within the recorded range.",
                 percent(*share)
             ),
             Self::TonesOfMotion { terms } => format!("The frequency of {} is a sum, a difference or a multiple of the motion's frequencies. Missing friction can cause such spectral lines without an external disturbance.", terms.join(", ")),
-            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as with a rope around a post.".to_owned(),
+            Self::FrictionWithTension => "The effect `position-hysteresis` on the torque is eta times the torque, so the friction of the cable grows with its tension, as described by the capstan equation.".to_owned(),
             Self::FrictionWithTemperature { channel } => format!("The effect `position-hysteresis` on `{channel}` is eta times `{channel}`, so the friction changes with the temperature."),
             Self::OutputFalls { input, output } => format!("`{output}` falls while `{input}` rises. One of the two signs is probably reversed. `bowden design` rejects the model until you correct the sign."),
-            Self::LoopReversed { kappa_eta, terms } => format!("The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta {kappa_eta:.3}). Its gain and the effect of {} partly cancel, so neither is a property of the rig by itself.", terms.join(", ")),
-            Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need this channel. Does `{channel}` measure the output, as an angle behind a spring does? If so, omit its column."),
-            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record, the load follows `{channel}`, so the model describes only this load. Record another load, or name the transmission's terms in --baseline."),
+            Self::LoopReversed { kappa_eta, terms } => format!("The fitted hysteresis loop is traversed in the opposite direction to the measured loop (kappa_eta {kappa_eta:.3}). Its gain and the effect of {} partly cancel, so neither is a property of the rig by itself.", terms.join(", ")),
+            Self::ChannelRepeatsOutput { channel } => format!("Nearly all of the model's output comes from `{channel}`, although the baseline model does not need this channel. Does `{channel}` measure the output, as an angle downstream of a spring does? If so, omit its column."),
+            Self::LoadFollowsChannel { channel, input } => format!("Nearly all of the model's output comes from `{channel}` and none from `{input}`. In this record, the load follows `{channel}`, so the model describes only this load. Record again with a different load, or name the transmission's terms in --baseline."),
             Self::SearchStopped { seconds: Some(seconds), .. } => format!("The search stopped after {seconds} s, as requested. This is the best model so far, and further terms may be missing."),
-            Self::SearchStopped { terms: None | Some(0), .. } => "There was no search for terms, as requested.".to_owned(),
+            Self::SearchStopped { terms: None | Some(0), .. } => "The program did not search for terms, as requested.".to_owned(),
             Self::SearchStopped { terms: Some(1), .. } => "The search stopped after one term, as requested. Further terms may be missing.".to_owned(),
             Self::SearchStopped { terms: Some(most), .. } => format!("The search stopped after {most} terms, as requested. Further terms may be missing."),
             Self::RoundRaises { term, after: 0 } => format!("On held-out data, the first term, {term}, already raises the error."),
@@ -196,18 +196,18 @@ impl Finding {
                     true => "",
                     false => " Record a larger motion.",
                 };
-                format!("{verdict}: its error is {}{unit}, compared with {}{unit} on the held-out part of its own record. The output moves less here, so this error is {} of the output.{advice}", amount(*here), amount(*own), percent(*error))
+                format!("{verdict}: its error is {}{unit}, compared with {}{unit} on the held-out part of its own record. The output moves less in this record, so this error is {} of its standard deviation.{advice}", amount(*here), amount(*own), percent(*error))
             }
             Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is sensor noise. Nothing was refitted.", percent(*error)),
             Self::ErrorTooLarge { error, own, with_line } => {
                 let own = own.map_or_else(
-                    || "an unknown error on its own record (the model file gives none)".to_owned(),
+                    || "an unknown error on its own record (the model file does not contain it)".to_owned(),
                     |own| format!("{} on the held-out part of its own record", percent(own)),
                 );
                 format!("The model does not hold: its error is {} of this record's output, compared with {own}. With a different gain and offset, the error is {}.", percent(*error), percent(*with_line))
             }
             Self::ErrorAtLimit { error, limit } => format!("This record is inconclusive: the error is {} of its output, and the limit is {}. Use a record with the same motion as the model's own record.", percent(*error), percent(*limit)),
-            Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file gives no error for comparison.", percent(*error)),
+            Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file contains no error for comparison.", percent(*error)),
             Self::OutputAtNoise => "The output moves by little more than the noise. Record a larger motion.".to_owned(),
             Self::LineChanged { gain, offset, unit, error, limit } => {
                 let offset = format!("{}{}", number(*offset, Some(0.05 * offset.abs())), spaced(unit.as_deref()));

@@ -125,7 +125,7 @@ impl ModelFile {
 
     /// The channels' places in a sample.
     fn places(&self, about: &About, upper: &str, out: &mut String) {
-        line!(out, "/* Smallest number of channels in a sample. */");
+        line!(out, "/* Minimum number of channels in a sample. */");
         line!(
             out,
             "#define {upper}_CHANNELS {}",

@@ -23,7 +23,7 @@ use crate::record::Record;
 use crate::scale::{HALF, SWING, TWENTIETH};
 
 /// The reason why a stage is not exported.
-const NO_INVERSE: &str = "it has no inverse, which --invertible requires";
+const NO_INVERSE: &str = "the term has no inverse, but --invertible requires one";
 
 /// The effect of `--invertible` on the gain of a transmission at the bound.
 pub const TIED: &str = "fixed at 2·sigma·kappa_eta·rho by --invertible";
@@ -114,7 +114,7 @@ impl HandOver {
                 None => "--baseline omits it",
             };
             return Err(format!(
-                "--invertible: only bouc-wen can be inverted, but {because}"
+                "--invertible: only the Bouc-Wen hysteresis can be inverted, but {because}"
             ));
         }
         let mut left_out = Vec::new();
@@ -240,7 +240,7 @@ fn fitted_without(data: &Prepared, last: &Solution, invertible: bool) -> Result<
     structure.invertible = true;
     let within = fit_from(data, &structure, Some(&Known::of(&free)), 0.0);
     within.ok_or_else(|| {
-        "--invertible: the model cannot be fitted within the bound of sigma".to_owned()
+        "--invertible: the model cannot be fitted with sigma at or below its bound".to_owned()
     })
 }
 

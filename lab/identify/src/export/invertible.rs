@@ -66,7 +66,9 @@ pub fn obstacle(file: &ModelFile) -> Result<Option<String>, String> {
         return Ok(None);
     }
     let Some(t) = &file.transmission else {
-        return Ok(Some("the model has no bouc-wen to invert".to_owned()));
+        return Ok(Some(
+            "the model has no Bouc-Wen hysteresis to invert".to_owned(),
+        ));
     };
     for term in &file.terms {
         let effect = term.effect()?;

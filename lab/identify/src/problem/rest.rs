@@ -61,7 +61,7 @@ pub(super) fn note(first: (bool, f64), last: (bool, f64), still: f64) -> Option<
         ends.join(" and ")
     );
     let line = format!(
-        "for {still:.3} s in total, the input moves by no more than its noise; straight lines replace the noise, which would drive the hysteresis"
+        "for {still:.3} s in total, the input moves by no more than its noise; straight lines replace the noise, which would otherwise drive the hysteresis"
     );
     let said = [(!ends.is_empty(), left_out), (still > 0.0, line)];
     let said: Vec<String> = said

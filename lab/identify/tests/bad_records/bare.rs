@@ -4,7 +4,7 @@
 use super::*;
 use bowden_lab::record::Options;
 
-const BLANKS: &str = "columns are separated by blanks";
+const BLANKS: &str = "columns are separated by spaces";
 
 #[test]
 fn blanks_may_separate_the_columns() {

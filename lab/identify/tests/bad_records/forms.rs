@@ -236,7 +236,7 @@ fn times_of_day_over_midnight_ask_for_a_date_and_dates_are_days_of_the_calendar(
     };
     refused(
         over("", ""),
-        "102: column `t`: the time decreases from 86399.99 to 0 s; if the record passes midnight, add a date",
+        "102: column `t`: the time decreases from 86399.99 to 0 s; if the record spans midnight, add a date",
     );
     let line = refusal(over("2026-03-01 ", "2026-03-01 "), &Options::default());
     let is_said = line.contains("the time decreases") && !line.contains("midnight");

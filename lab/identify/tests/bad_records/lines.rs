@@ -9,7 +9,10 @@ fn a_file_that_cannot_be_opened_is_named() {
     let missing = folder.path().join("no such.csv");
     for (path, says) in [
         (missing.as_path(), "no such file"),
-        (folder.path(), "this is a folder; give a CSV file"),
+        (
+            folder.path(),
+            "this is a folder; pass a record file, such as CSV, JSON or .xlsx",
+        ),
     ] {
         let line = read(path, &Options::default()).unwrap_err().to_string();
         assert_eq!(line, format!("{}: {says}", path.display()));
@@ -44,7 +47,7 @@ fn a_file_that_is_not_text_is_refused() {
     let bytes: [(&[u8], &str); 5] = [
         (
             b"t,x,f\n0,1,2\n\x00\x01",
-            "3: byte 12 is NUL, so the file is binary; give CSV text",
+            "3: byte 12 is NUL, so the file is neither text nor a known binary format; export it as CSV",
         ),
         (b"t,x,f\n0,1\xb5,2\n", "2: column `x`: `1µ` is not a number"),
         (
@@ -107,7 +110,7 @@ fn a_line_that_is_no_row_of_numbers_is_shown() {
     }
     for mark in ["OVL", "OL", "-OL", "ovl", "#N/A", "#NUM!", "N/A", "---"] {
         let says =
-            "is a placeholder, not a number; empty the cell, and use --drop-bad to drop the row";
+            "is a placeholder, not a number; clear the cell, and use --drop-bad to drop the row";
         let text = with_line(9, &format!("0.07,{mark},2"));
         refused(text, &format!("9: column `x`: `{mark}` {says}"));
     }

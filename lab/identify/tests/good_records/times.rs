@@ -146,7 +146,7 @@ fn minutes_and_seconds_are_time_stamps() {
     // Excel hides the hours.
     refused(
         text.replace("01:30", "00:00"),
-        "303: column `t`: the time decreases from 89.9 to 0 s; if the record passes a full hour, write the hours too, as in 01:59:50.2",
+        "303: column `t`: the time decreases from 89.9 to 0 s; if the record spans a full hour, write the hours too, as in 01:59:50.2",
     );
 }
 

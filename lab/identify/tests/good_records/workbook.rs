@@ -288,7 +288,7 @@ fn damage_to_a_workbook_is_refused() {
     );
     assert_eq!(
         refusal(&zip(&[("_rels/.rels", Vec::new())], false)),
-        "r.xlsx: the workbook is damaged: a part is empty or is not a text"
+        "r.xlsx: the workbook is damaged: a part is empty or is not text"
     );
     let wide = format!("t,x,f\n\n{}1", ",".repeat(256));
     assert_eq!(

@@ -179,7 +179,9 @@ impl<'a> Book<'a> {
             "s" => {
                 let own = text.trim().parse().ok();
                 let own = own.and_then(|index: usize| self.strings.get(index));
-                plain(own.ok_or_else(|| damaged("a cell refers to a text that is missing"))?)
+                plain(own.ok_or_else(|| {
+                    damaged("a cell refers to a shared string that does not exist")
+                })?)
             }
             "b" | "n" if text.trim().is_empty() => String::new(),
             "n" => {

@@ -23,8 +23,7 @@ pub(super) fn pieces(
     part: &[u8],
     mut take: impl FnMut(Piece<'_>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let decoded =
-        encoding::decode(part).map_err(|_| damaged("a part is empty or is not a text"))?;
+    let decoded = encoding::decode(part).map_err(|_| damaged("a part is empty or is not text"))?;
     let mut reader = Reader::from_str(&decoded.text);
     reader.config_mut().expand_empty_elements = true;
     loop {

@@ -174,7 +174,7 @@ fn settings(
     let lambda = (bandwidth / 50.0).max(4.0 * g / bandwidth);
     if h * lambda > 1.0 {
         return Err(format!(
-            "k > 1/lambda² and h·lambda <= 1 exclude each other at a step of {h} s, the smallest whole number of samples longer than the delay; the step must be at most {:.3} s, so raise the rate or shorten the delay",
+            "k > 1/lambda² and h·lambda <= 1 cannot both hold at a step of {h} s, the smallest whole number of samples longer than the delay; the step must be at most {:.3} s, so raise the rate or shorten the delay",
             (0.25 * found.loop_gain / g).sqrt()
         ));
     }

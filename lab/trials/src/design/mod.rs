@@ -72,7 +72,7 @@ const MOST_DELAY: f64 = 1000.0;
 const WORTH: f64 = 1.1;
 
 /// The reason why there is neither a reference nor a certificate.
-pub(crate) const TOO_SHORT: &str = "the recorded stroke is too short to traverse the hysteresis loop, so no torque is reached in both directions and there is no reference; record a larger stroke";
+pub(crate) const TOO_SHORT: &str = "the recorded stroke is too short to traverse the hysteresis loop; record a larger stroke. No output torque occurs both while loading and while unloading, so no reference can be derived";
 
 /// Gain margin that the loop must keep if every step has the longest `dt`.
 const LONG_MARGIN: f64 = 1.4;
@@ -366,7 +366,7 @@ impl Safety {
 fn read(text: &str, label: &str) -> Result<ModelFile, String> {
     if text.trim().is_empty() {
         return Err(format!(
-            "{label}: the file is empty; give a model written by `bowden identify --model-out`"
+            "{label}: the file is empty; pass a model written by `bowden identify --model-out`"
         ));
     }
     let file: ModelFile = toml::from_str(text).map_err(|e| message(&e, text, label))?;

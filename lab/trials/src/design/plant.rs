@@ -9,10 +9,9 @@ use serde::Serialize;
 ///
 /// With zeta = eta in the direction of the motion, and p = rho times the path,
 /// `d zeta/dp = 1 - zeta^n` while loading and `1 + (2·sigma - 1)·abs(zeta)^n` while unloading. With
-/// abs(zeta) <= 1 and 2·sigma >= 1, the slope of eta versus the input is in
-/// `0..=rho·max(1, 2·sigma)`. In torque mode (5)-(7), the slope of the output is therefore between
-/// `B` and `B - kappa_eta·rho·max(1, 2·sigma)`. A saturated loop reaches both ends, before and
-/// after a reversal.
+/// abs(zeta) <= 1 and 2·sigma >= 1, the slope of eta versus the input is in `0..=2·sigma·rho`. In
+/// torque mode (5)-(7), the slope of the output is therefore between `B` and
+/// `B - 2·kappa_eta·sigma·rho`. A saturated loop reaches both ends, before and after a reversal.
 ///
 /// ```
 /// use bowden::hysteresis::BoucWen;

@@ -124,7 +124,7 @@ fn bounds(designed: &Designed, out: &mut String) {
     let after = b.fallback_after;
     line!(
         out,
-        "/// The safe command [command unit] after {after} successive bad samples."
+        "/// The safe command [command unit] after {after} consecutive bad samples."
     );
     let safe = number(b.fallback_command);
     let fallback = format!("constant!(Fallback::<f32>::try_new({after}, {safe}))");
@@ -232,7 +232,7 @@ fn limits_of_steps(own: &AdaptiveSettings<f64, 0>, out: &mut String) {
     let (after, safe) = (own.fallback.after(), own.fallback.command().unwrap_or(0.0));
     line!(
         out,
-        "/// The safe command [command unit] after {after} successive bad steps of the law."
+        "/// The safe command [command unit] after {after} consecutive bad steps of the law."
     );
     let fallback = format!(
         "constant!(Fallback::<f32>::try_new({after}, {}))",

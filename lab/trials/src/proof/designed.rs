@@ -15,7 +15,7 @@ pub(crate) fn prove(gains: &GainsFile) -> Result<Proof, String> {
         "has no [adaptive], because the design found no admissible gains of the adaptive law (`bowden design` prints the reason)",
     )?;
     let known = gains.plant.as_ref().ok_or_else(|| {
-        format!("{NO_PLANT} (`bowden design` writes it if the model bounds the rate of the disturbance)")
+        format!("{NO_PLANT} (`bowden design` writes this table if the model file contains a bound on the rate of the disturbance)")
     })?;
     let (low, high) = (law.limits.low(), law.limits.high());
     let mut proof = of_form(&form(law, known)?)?;

@@ -146,7 +146,7 @@ fn where_no_gain_is_admissible_it_says_why() {
     let slow = designed(numbers, &asked);
     assert!(slow.adaptive.settings.is_none() && slow.gains.adaptive.is_none());
     let why = slow.adaptive.refused.unwrap();
-    assert!(why.contains("h·lambda <= 1 exclude each other"), "{why}");
+    assert!(why.contains("h·lambda <= 1 cannot both hold"), "{why}");
     let text = model(numbers, "") + "[about.intervals]\ngain = [-0.1, 1.9]\n";
     let open = design(&text, "m.toml", &ASKED).unwrap().adaptive;
     let why = open.refused.unwrap();

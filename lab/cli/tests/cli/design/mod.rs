@@ -161,7 +161,7 @@ fn gains_and_rigs_that_make_no_sense_are_one_line() {
             {both} --effect viscous => --effect
             compare --model oil.toml --spring 160 => oil.toml: the term viscous@oil
             compare --gains gains.toml => gains.toml: gains from `bowden design` need their model | --model MODEL.toml
-            compare --model setup.toml --gains gains.toml => setup.toml: with --gains, give a model written by `bowden identify
+            compare --model setup.toml --gains gains.toml => setup.toml: with --gains, pass a model written by `bowden identify
             certify --gains model.toml => model.toml: this file is a model | `bowden design MODEL.toml
             certify --gains gains.toml => certify this file with `bowden certify FILE`"
         ),

@@ -252,7 +252,7 @@ fn a_channel_that_is_a_sum_is_defined_in_every_file_that_is_handed_over() {
         &validate,
         &[
             "channel `stretch` (fitted as proximal + distal), but the record has no such channel; ",
-            "give its column with --channel stretch=COL",
+            "pass its column with --channel stretch=COL",
         ],
     );
     said(&format!("{validate} {stretch}"));

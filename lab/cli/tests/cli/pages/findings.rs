@@ -296,9 +296,10 @@ fn of_validation() -> Vec<Finding> {
 pub fn page() -> String {
     let mut page = String::from(
         "# Findings\n\n\
-         The list `findings` of `bowden identify --json` and `bowden validate --json` contains what you \
-         should know about the record, its model or the rig, besides the missing mechanisms. Each row \
-         shows an example. Its numbers and names come from its `evidence`.\n\n\
+         The list `findings` of `bowden identify --json` and `bowden validate --json` contains \
+         observations about the record, the model or the rig, other than the missing mechanisms. Each \
+         row shows an example. The numbers and names in the example come from the field `evidence` of \
+         the finding.\n\n\
          | code | severity | words |\n|---|---|---|\n",
     );
     let mut codes = BTreeSet::new();

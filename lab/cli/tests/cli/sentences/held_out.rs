@@ -175,7 +175,7 @@ fn an_angle_behind_a_spring_is_said_to_stand_for_the_output() {
     let header = "t,tau_i [N·m],tau_o [N·m],phi_d [rad]";
     Rows::new(header, (0..12_000).map(row)).close("").says(&[
         "Nearly all of the model's output comes from `phi_d`",
-        "Does `phi_d` measure the output, as an angle behind a spring does?",
+        "Does `phi_d` measure the output, as an angle downstream of a spring does?",
     ]);
 }
 

@@ -99,7 +99,7 @@ fn a_lead_of_a_model_that_leaves_much_is_no_question_of_clocks_alone() {
 fn friction_that_depends_on_the_tension_or_a_measured_temperature_is_named() {
     // τ_o = τ_i (B − μ η): what a cable loses on a bend is a share of its tension.
     let bent = cable(0.95, |tau, _| 0.12 * tau).close("");
-    bent.does_not_say("runs in the opposite sense to");
+    bent.does_not_say("is traversed in the opposite direction to");
     // A sheath that is warmed up twice: its lubricant gets thinner. In the middle of the record a
     // fan blows for ten seconds.
     let warmth = |t: f64| 25.0 + 20.0 * (1.0 - (-t / 8.0).exp()) - 9.0 * ((t - 20.0) / 6.0).tanh();
@@ -146,7 +146,7 @@ fn a_hysteresis_that_turns_against_the_loop_is_said_to_cancel_another_part() {
     let kappa = all.iter().find(|p| p["name"] == "kappa_eta").unwrap();
     assert!(kappa["value"].as_f64().unwrap() < 0.0, "{kappa}");
     let words =
-        "The hysteresis loop runs in the opposite sense to the loop of the output (kappa_eta -";
+        "The fitted hysteresis loop is traversed in the opposite direction to the measured loop (kappa_eta -";
     closed.says(&[words, "partly cancel"]);
     // A larger stroke would show both shapes at their bounds 1.2 and 1.3 times as strongly: nothing
     // is planned that makes no parameter known.

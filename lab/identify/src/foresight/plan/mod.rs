@@ -65,7 +65,7 @@ pub struct Aim {
     pub left_then: f64,
 }
 
-/// What stays of a contribution once its rival has imitated what it can.
+/// The part of a contribution that the alternative cannot reproduce.
 struct Apart {
     correlation: f64,
     /// Rms in the output's unit.

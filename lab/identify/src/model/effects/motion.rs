@@ -46,7 +46,7 @@ pub(super) const MOTION: &[Entry] = &[
         name: "drag-cubic",
         rank: 13,
         tried: &[on(Place::Motion, AS_IT_IS)],
-        shown_by: "speeds up to the highest speed that the rig allows",
+        shown_by: "speeds up to the rig's maximum",
         ..PLAIN
     },
     // In no first scan: it lies between viscous and Coulomb friction, and the search asks of it
@@ -71,7 +71,7 @@ pub(super) const MOTION: &[Entry] = &[
         declared: Declared::OnChannel(&[Speed(0.05)]),
         bounds: &[SMOOTH_SIGN],
         on: &[On::Read, On::Reversal],
-        shown_by: "slow and fast passages through standstill",
+        shown_by: "slow and fast zero crossings of the velocity",
         takes_energy: true,
         ..PLAIN
     },
@@ -89,7 +89,7 @@ pub(super) const MOTION: &[Entry] = &[
         declared: Declared::OnChannel(&[Speed(0.3), Number(1.0)]),
         bounds: &[LOW_SPEED, Bounds::Linear(0.5, 3.0)],
         on: &[On::Read, On::Reversal],
-        shown_by: "slow passages: steady speeds below and above v_s",
+        shown_by: "slow motion at constant speeds below and above v_s",
         ..PLAIN
     },
     Entry {
