@@ -316,3 +316,102 @@ proptest! {
         }
     }
 }
+
+fn law_with<T: Real>(k_p: f64, k_i: f64, limits: Limits<T>, longest: f64) -> PidSettings<T> {
+    let [k_p, k_i, longest] = [k_p, k_i, longest].map(T::from_f64);
+    PidSettings::new(k_p, k_i, limits, longest, Fallback::hold_indefinitely())
+}
+
+fn sample<T: Real>(dt: f64, reference: f64, measured: f64) -> PidInput<T> {
+    let [dt, reference, measured] = [dt, reference, measured].map(T::from_f64);
+    PidInput::new(dt, reference, measured)
+}
+
+fn a_report_reverses_what_the_integral_moved<T: Real>() {
+    let limits = Limits::try_new(T::from_f64(-10.0), T::from_f64(10.0)).unwrap();
+    let tracking_time = T::from_f64(0.05);
+    for anti_windup in [
+        AntiWindup::Conditional,
+        AntiWindup::Clamp,
+        AntiWindup::BackCalculation { tracking_time },
+    ] {
+        for (way, report) in [(1.0, Applied::AtUpperLimit), (-1.0, Applied::AtLowerLimit)] {
+            let settings = law_with(0.0, 100.0, limits, 0.1);
+            let pid = Pid::try_new(with(settings, |s| s.anti_windup = anti_windup)).unwrap();
+            let mut state = PidState::new();
+            // The change of 60 is cut to the range, or is left to back-calculation.
+            let out = pid.step(&mut state, &sample(0.01, 60.0 * way, 0.0));
+            assert_eq!(out.command, T::from_f64(10.0 * way));
+            pid.applied(&mut state, report);
+            assert_eq!(state.integral(), T::ZERO, "{anti_windup:?}");
+            let out = pid.step(&mut state, &sample(0.01, 0.0, 0.0));
+            assert_eq!(out.command, T::ZERO, "{anti_windup:?}");
+            // An integral at rest at its end has nothing to reverse.
+            if matches!(anti_windup, AntiWindup::BackCalculation { .. }) {
+                continue;
+            }
+            for _ in 0..3 {
+                pid.step(&mut state, &sample(0.01, 60.0 * way, 0.0));
+            }
+            for _ in 0..3 {
+                pid.applied(&mut state, report);
+                pid.step(&mut state, &sample(0.01, 60.0 * way, 0.0));
+                assert_eq!(state.integral(), T::from_f64(10.0 * way));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_report_of_the_drive_reverses_what_the_integral_moved_and_no_more() {
+    a_report_reverses_what_the_integral_moved::<f32>();
+    a_report_reverses_what_the_integral_moved::<f64>();
+}
+
+fn the_integral_keeps_its_limit<T: Real>() {
+    let range = Limits::try_new(T::from_f64(-10.0), T::from_f64(10.0)).unwrap();
+    let tracking_time = T::from_f64(0.05);
+    for (limits, anti_windup) in [
+        (range, AntiWindup::BackCalculation { tracking_time }),
+        (
+            range.with_slew(T::from_f64(20.0)).unwrap(),
+            AntiWindup::Conditional,
+        ),
+    ] {
+        let most = T::from_f64(3.0);
+        let pid = Pid::try_new(with(law_with(10.0, 5.0, limits, 0.01), |s| {
+            (s.anti_windup, s.integral_limit) = (anti_windup, Some(most));
+        }));
+        let (pid, mut state) = (pid.unwrap(), PidState::new());
+        for k in 0..8000 {
+            let wanted = if k / 2000 % 2 == 0 { 8.0 } else { -8.0 };
+            pid.step(&mut state, &sample(0.001, wanted, 0.0));
+            assert!(
+                state.integral().abs() <= most,
+                "{anti_windup:?}: {}",
+                state.integral()
+            );
+        }
+    }
+}
+
+#[test]
+fn no_anti_windup_moves_the_integral_beyond_its_limit() {
+    the_integral_keeps_its_limit::<f32>();
+    the_integral_keeps_its_limit::<f64>();
+}
+
+#[test]
+fn a_transfer_to_a_law_with_a_period_does_not_jump() {
+    let limits = Limits::try_new(-1000.0, 1000.0).unwrap();
+    let straight = Pid::try_new(law_with::<f64>(1.0, 0.1, limits, 0.01)).unwrap();
+    let period = Some(360.0);
+    let turning = with(law_with(1.0, 0.1, limits, 0.01), |s| s.period = period);
+    let turning = Pid::try_new(turning).unwrap();
+    let (mut state, at) = (PidState::new(), sample(0.001, 350.0, 0.0));
+    let before = straight.step(&mut state, &at).command;
+    turning.bumpless_transfer(&mut state);
+    let after = turning.step(&mut state, &at).command;
+    // One increment of the integral: k_i times the 10 degrees to the reference times dt.
+    assert!((after - before + 0.001).abs() < 1e-9, "{before} {after}");
+}

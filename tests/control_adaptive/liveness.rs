@@ -377,3 +377,36 @@ fn in_f32_the_accumulated_error_moves_by_changes_below_its_rounding() {
         near(moved, 0.01, 2e-6);
     }
 }
+
+/// A plant of either sign, driven out of reach for twenty seconds: the output then arrives.
+fn returns_on_a_plant_of_gain<T: Real>(alpha: f64) {
+    let limits = Limits::try_new(to(-5.0), to(5.0)).unwrap();
+    let form = Form::AsPublished {
+        time_constant: to(0.005),
+    };
+    let [gain, lambda, epsilon, longest] = [2.0, 4.0, 0.1, 0.01].map(to);
+    let hold = Fallback::hold_indefinitely();
+    let settings = AdaptiveSettings::<T, 0> {
+        beta: Estimator::fixed(to(1.0 / alpha)),
+        z_limit: to(10.0),
+        ..AdaptiveSettings::new(form, gain, lambda, epsilon, limits, longest, hold)
+    };
+    let law = Adaptive::try_new(settings).unwrap();
+    let (mut state, mut y) = (AdaptiveState::new(&law), 0.0);
+    for k in 0..60_000 {
+        let reference = if k < 20_000 { 20.0 } else { 1.0 };
+        let input = AdaptiveInput::new(to(0.001), to(reference), to(y), []);
+        let command: T = law.step(&mut state, &input).command;
+        y += 0.001 * (alpha * of(command) - y) / 0.2;
+    }
+    // Forty seconds are more than a hundred time constants of the loop.
+    assert!((y - 1.0).abs() < 1e-3, "alpha {alpha}: {y}");
+}
+
+#[test]
+fn a_law_returns_from_its_limit_on_a_plant_of_either_sign() {
+    for alpha in [1.0, -1.0] {
+        returns_on_a_plant_of_gain::<f32>(alpha);
+        returns_on_a_plant_of_gain::<f64>(alpha);
+    }
+}

@@ -191,3 +191,27 @@ proptest! {
         }
     }
 }
+
+/// Samples at 10 kHz in 3000 s: more than `f32` counts one by one.
+const MANY: u32 = 30_000_000;
+
+#[test]
+fn a_distant_reading_is_accepted_in_the_end_at_any_rate_of_samples() {
+    let check = Plausible::try_new(-1000.0_f32, 1000.0).unwrap();
+    let check = check.with_rate(0.01).unwrap();
+    let mut state = PlausibleState::new();
+    check.step(&mut state, 0.0, 1e-4, true);
+    // 30 units at 0.01 units per second are due after 3000 s.
+    let is_accepted = |_: &u32| check.step(&mut state, 30.0, 1e-4, true).fault.is_none();
+    assert!((0..=MANY).find(is_accepted).is_some());
+}
+
+#[test]
+fn an_axis_without_counts_stops_in_the_end_at_any_rate_of_samples() {
+    let edges = EdgeVelocity::try_new(1.0_f32, 0.1, 2900.0).unwrap();
+    let mut state = EdgeVelocityState::new();
+    edges.step(&mut state, 0.0, 1e-4);
+    edges.step(&mut state, 1.0, 1e-4);
+    let has_stopped = |_: &u32| edges.step(&mut state, 1.0, 1e-4).status == RateStatus::Stopped;
+    assert!((0..=MANY).find(has_stopped).is_some());
+}
