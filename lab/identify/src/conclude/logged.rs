@@ -7,9 +7,9 @@
 //! then much better with no more terms.
 
 use super::final_fit::FinalFit;
-use super::signs::comes_before;
+use super::signs::runs_backwards;
 use crate::alteration::{beyond_noise, Alteration, Suspicion};
-use crate::fit::Segments;
+use crate::fit::{fit, Segments, Solution};
 use crate::ledger::Ledger;
 use crate::problem::Prepared;
 use crate::record::Record;
@@ -48,12 +48,23 @@ impl Run<'_> {
         if self.done.rmse.fit <= NOISE * self.data.noise_floor {
             return None;
         }
-        let exchanged = comes_before(self.data).then(|| {
+        let exchanged = runs_backwards(self.data).then(|| {
             let (column, other) = (&self.data.input.name, &self.data.output_name);
             (None, swapped(column, other))
         });
+        let exchanged = exchanged.filter(|way| self.baseline_fits(way) == Some(true));
         let ways = exchanged.into_iter().chain(self.channel());
         ways.filter_map(|way| self.confirmed(way)).next()
+    }
+
+    /// Whether the baseline model fits no worse without an alteration. This saves a search.
+    fn baseline_fits(&self, way: &Way) -> Option<bool> {
+        let (data, declared) = (self.undone(way)?, &self.ledger.declared);
+        let relative = |data: &Prepared, solution: &Solution| {
+            solution.rmse.fit / Segments::deviation(data, &data.target).fit
+        };
+        let without = fit(&data, &declared.structure, None, 0.0)?;
+        Some(relative(&data, &without) <= relative(self.data, declared))
     }
 
     /// The channel alteration of one file with which the terms of the catalogue, to first order,

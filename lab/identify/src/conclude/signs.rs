@@ -123,12 +123,17 @@ pub(super) fn turns_against(done: &FinalFit) -> Option<Finding> {
     })
 }
 
-/// Whether the output of a cable leads its input: the loop is traversed in the opposite direction.
-pub(crate) fn comes_before(data: &Prepared) -> bool {
+/// Whether the loop is traversed in the direction that it has if input and output are swapped: the
+/// output of a cable leads its input, or the work of a force on its displacement is negative.
+pub(crate) fn runs_backwards(data: &Prepared) -> bool {
     let rows = data.split.fit.iter();
     let position = |row: usize| data.input.motion[row * data.stride].position;
     let (slope, _) = line(rows.map(|&i| (position(i), data.target[i])));
-    data.mode == Mode::Torque && slope * area(data, &data.target) > 0.0
+    let leads = slope * area(data, &data.target);
+    match data.mode {
+        Mode::Torque => leads > 0.0,
+        Mode::Displacement => leads < 0.0,
+    }
 }
 
 /// Area of the loop of a signal over the input: the integral of it times the input's rate.

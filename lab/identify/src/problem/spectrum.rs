@@ -13,7 +13,7 @@ const ROUNDED: f64 = 3e-4;
 ///
 /// The highest tone is the highest frequency at which the amplitude spectrum (Hann
 /// window, mean removed) reaches a tenth of its peak. The result is kept between
-/// 20 periods in the record and a fifth of the rate.
+/// 50 periods in the record, which is what a search needs, and a fifth of the rate.
 #[must_use]
 pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
     let power = power(input);
@@ -27,7 +27,7 @@ pub fn default_cutoff(input: &[f64], rate: f64) -> f64 {
     let resolution = rate / (2 * (power.len() - 1)) as f64;
     // Two significant digits: a cut-off that can be said aloud and typed again.
     let digits = |raw: f64| format!("{raw:.1e}").parse().unwrap_or(raw);
-    let (least, most) = (20.0 / seconds, 0.2 * rate);
+    let (least, most) = (50.0 / seconds, 0.2 * rate);
     let of_tones = (8.0 * bin as f64 * resolution).clamp(least, most);
     // Above this, the smoother that represents the signal itself would be limited by half the rate.
     let last = most.min(0.09 * rate);
