@@ -5,11 +5,10 @@
 //! little more, for the rounding of f32, and `|e| = |s - lambda·z| <= 2·S`.
 
 use super::any::within;
-use super::properties::recursion::{Disturbance, ErrorState, LagRecursion};
 use super::properties::tracking::errors_stay_within_theorem_1;
 use super::properties::tracking::{errors_stay_in_their_box, in_box};
 use super::stubs;
-use bowden::control::SmoothSign;
+use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};
 
 /// Table 2 of the paper; every smooth sign at 1 kHz needs epsilon >= 0.048 for this.
 fn paper(smooth_sign: SmoothSign) -> LagRecursion<f32> {

@@ -7,18 +7,11 @@ use bowden::{Error, Real};
 
 /// The box theorem: peak of the error of the first-order form in sampled time.
 ///
-/// The errors of the closed loop follow this recursion exactly, with `g = alpha·beta_hat`,
-/// `w = (g-1)·(r + (r⁺-r)/(h·lambda)) + (g·theta_hat - theta)'x - D` and
-/// `xi = (D⁺ - D) + theta'(x⁺ - x)`:
-///
-/// - `s⁺ = s - h·lambda·g·k·s - h·g·z + h·lambda·(w - g·delta_hat·T(s/eps)) - xi`
-/// - `z⁺ = z + h·(s - lambda·z)`
-///
-/// Let `W >= |w|`, `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold at every sample, for any estimates
-/// within their bounds. **If** `h·lambda <= 1`, `h·lambda·g⁺·(k + delta_max/eps) <= 1` and
-/// `k > 1/lambda²`, **then** the box `|s| <= S`, `|z| <= S/lambda` with
-/// `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is invariant and attractive, and
-/// `|e| <= |s| + lambda·|z| <= 2·S`.
+/// The closed loop is exactly [`LagRecursion`](bowden::control::LagRecursion). Let `W >= |w|`,
+/// `h·Xi >= |xi|` and `g⁻ <= g <= g⁺` hold at every sample, for any estimates within their bounds.
+/// **If** `h·lambda <= 1`, `h·lambda·g⁺·(k + delta_max/eps) <= 1` and `k > 1/lambda²`, **then** the
+/// box `|s| <= S`, `|z| <= S/lambda` with `S = (W + Xi/lambda)/(g⁻·(k - 1/lambda²))` is invariant
+/// and attractive, and `|e| <= |s| + lambda·|z| <= 2·S`.
 ///
 /// *Proof.* By the first condition, `z⁺ = (1 - h·lambda)·z + h·s` stays in the box. By the second
 /// condition, `f(s) = s - h·lambda·g·(k·s + delta_hat·T(s/eps))` does not decrease (the slope of T

@@ -1,13 +1,12 @@
 //! K2, K12: the whole shipped step of the lag form.
 
 use super::super::{Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AdaptiveTerms};
-use super::super::{Estimator, Form, SmoothSign};
+use super::super::{ErrorState, Estimator, Form, SmoothSign};
 use super::estimates::any_lost;
 use crate::control::status::Held;
 use crate::control::{Output, Status};
 use crate::proofs::any::within;
 use crate::proofs::properties::control::the_lag_does_not_pass_its_target;
-use crate::proofs::properties::recursion::ErrorState;
 use crate::proofs::properties::tracking::{the_law_keeps_the_box, StaticPlant};
 use crate::signal::{two_sum, Compensated};
 use crate::Real;

@@ -5,6 +5,5 @@
 
 pub mod control;
 pub mod effect;
-pub mod recursion;
 pub mod signal;
 pub mod tracking;

@@ -1,7 +1,7 @@
 //! The tracking error stays in its box.
 
-use super::recursion::{Disturbance, ErrorState, LagRecursion};
 use bowden::control::{Adaptive, AdaptiveInput, AdaptiveState};
+use bowden::control::{Disturbance, ErrorState, LagRecursion};
 
 /// Whether errors lie in the box: `|s| <= most`, `|z| <= most/lambda`.
 pub fn in_box(law: &LagRecursion<f32>, at: ErrorState<f32>, most: f32) -> bool {

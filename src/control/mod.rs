@@ -44,8 +44,8 @@ pub(crate) mod status;
 pub use crate::fault::Fault;
 pub(crate) use adaptive::End;
 pub use adaptive::{
-    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AdaptiveTerms, Estimator, Form,
-    Leakage, OnMissing, SmoothSign,
+    Adaptive, AdaptiveInput, AdaptiveSettings, AdaptiveState, AdaptiveTerms, Disturbance,
+    ErrorState, Estimator, Form, LagRecursion, Leakage, OnMissing, SmoothSign,
 };
 pub use compensator::{
     BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,

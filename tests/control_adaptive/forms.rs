@@ -1,6 +1,5 @@
 //! The two forms: an exact recursion, and what happens on the wrong plant.
 
-use super::recursion::{Disturbance, ErrorState, LagRecursion};
 use super::*;
 
 /// The static plant `y = alpha·u - theta·x - D`, with u from the sample before.

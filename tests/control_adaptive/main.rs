@@ -12,8 +12,6 @@ mod leakage;
 mod limited;
 mod line;
 mod liveness;
-#[path = "../../proofs/properties/recursion.rs"]
-mod recursion;
 #[path = "../shared/mod.rs"]
 mod shared;
 mod told;

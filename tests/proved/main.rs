@@ -20,7 +20,6 @@ use bowden::hysteresis::BoucWen;
 use bowden::model::{Model, Source, Term};
 use bowden::signal::{Derivative, DerivativeState, Play, PlayState};
 use bowden::transmission::Transmission;
-use properties::recursion::{Disturbance, ErrorState, LagRecursion};
 use properties::{control, signal, tracking};
 use proptest::prelude::*;
 use shared::{any32 as any_float, with};

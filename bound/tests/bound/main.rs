@@ -9,8 +9,6 @@ mod dyadic;
 mod figures;
 mod learning;
 mod observer;
-#[path = "../../../proofs/properties/recursion.rs"]
-mod recursion;
 mod refused;
 mod rounded;
 mod sampled;

@@ -1,6 +1,5 @@
 //! The box theorem against adversaries.
 
-use super::recursion::{Disturbance, ErrorState, LagRecursion};
 use super::*;
 
 fn law(gain: f64, lambda: f64, share: f64, smooth_sign: SmoothSign) -> Adaptive<f64, 1> {

@@ -22,6 +22,7 @@ mod estimator;
 #[cfg(kani)]
 #[path = "../../../proofs/adaptive/mod.rs"]
 mod proofs;
+mod recursion;
 mod resume;
 mod settings;
 mod smooth_sign;
@@ -29,6 +30,7 @@ mod state;
 mod step;
 
 pub use estimator::{Estimator, Leakage};
+pub use recursion::{Disturbance, ErrorState, LagRecursion};
 pub use settings::{AdaptiveSettings, Form, OnMissing};
 pub use smooth_sign::SmoothSign;
 pub(crate) use state::End;

@@ -123,4 +123,21 @@ fn parts<T: Real>() {
     let sign = black_box(SmoothSign::Tanh);
     never_panics!(control_adaptive_smooth_sign_of, sign.of::<T>(any()));
     never_panics!(control_adaptive_smooth_sign_residue, sign.residue::<T>());
+    let recursion = LagRecursion::<T> {
+        gain: any(),
+        lambda: any(),
+        epsilon: any(),
+        smooth_sign: sign,
+    };
+    let by = Disturbance {
+        g: any(),
+        delta_hat: any(),
+        w: any(),
+        xi: any(),
+    };
+    let at = black_box(ErrorState::default());
+    never_panics!(
+        control_adaptive_recursion_step,
+        recursion.step(at, any(), &by)
+    );
 }

@@ -1,19 +1,23 @@
 //! The exact error recursion of the first-order form on a static plant.
 
-use bowden::control::{law, SmoothSign};
-use bowden::Real;
+use super::SmoothSign;
+use crate::control::law;
+use crate::Real;
 
-/// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ErrorState<T> {
-    /// Filtered error of (18), `s = e + lambda·z` \[N·m\].
-    pub s: T,
-    /// Accumulated error z of (17) \[N·m·s\].
-    pub z: T,
+crate::data! {
+    /// The errors s \[N·m\] and z \[N·m·s\] of the closed loop.
+    #[derive(Default)]
+    pub struct ErrorState<T> {
+        /// Filtered error of (18), `s = e + lambda·z` \[N·m\].
+        pub s: T,
+        /// Accumulated error z of (17) \[N·m·s\].
+        pub z: T,
+    }
 }
 
 /// The disturbances that act on the errors in one step of the [`LagRecursion`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance<T> {
     /// g = alpha·beta_hat; 1 if beta_hat is exact.
     pub g: T,
@@ -38,7 +42,16 @@ pub struct Disturbance<T> {
 /// at a limit. The box theorem (`PeakSampled` in the crate `bowden-bound`) applies to this
 /// recursion. From bounds on g, delta_hat, `|w|` and `|xi|`, the theorem computes bounds on s and z
 /// (the box). Errors that start inside the box stay inside the box.
+///
+/// ```
+/// use bowden::control::{Disturbance, ErrorState, LagRecursion, SmoothSign};
+/// let gains = LagRecursion { gain: 24.0, lambda: 8.0, epsilon: 0.2, smooth_sign: SmoothSign::Tanh };
+/// let known = Disturbance { g: 1.0, delta_hat: 0.0, w: 0.0, xi: 0.0 };
+/// let next = gains.step(ErrorState { s: 1.0, z: 0.0 }, 0.001, &known);
+/// assert_eq!((next.s, next.z), (1.0 - 0.001 * 8.0 * 24.0, 0.001));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LagRecursion<T> {
     /// Control gain k.
     pub gain: T,
@@ -52,6 +65,8 @@ pub struct LagRecursion<T> {
 
 impl<T: Real> LagRecursion<T> {
     /// The errors after one sample of `dt` \[s\].
+    #[inline]
+    #[must_use]
     pub fn step(&self, at: ErrorState<T>, dt: T, by: &Disturbance<T>) -> ErrorState<T> {
         let sign = self.smooth_sign.of(at.s / self.epsilon);
         let pull = self.gain * at.s + by.delta_hat * sign;
