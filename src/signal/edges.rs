@@ -1,6 +1,6 @@
 //! Velocity of a slow encoder from the time between its counts.
 
-use super::{clamp, gap_after, RateStatus};
+use super::{clamp, RateStatus};
 use crate::error::above_zero;
 use crate::fault::{fault_of_dt, Fault};
 use crate::{Error, Real};
@@ -24,7 +24,8 @@ crate::checked::stored! {
     ///   tau at high speed. The velocity is held until the next count, which adds `T/2` on average.
     /// * **Stop**: without a count, the bound on the velocity falls with time. After `longest_gap`
     ///   without a count, the velocity is zero and the status is [`RateStatus::Stopped`]. A speed
-    ///   below `count/longest_gap` is therefore reported as a stop.
+    ///   below `count/longest_gap` is therefore reported as a stop. In `f32`, `longest_gap` must be
+    ///   less than 2²⁴ samples, because a longer time no longer grows by `dt`.
     /// * **Reversal**: after a reversal, the first count passes the same encoder line as the
     ///   previous count. The axis has therefore moved by one count less. Dither of one count gives
     ///   zero velocity.
@@ -154,7 +155,7 @@ impl<T: Real> EdgeVelocity<T> {
             return RateStatus::Held(fault_of_dt(dt, T::HIGHEST).unwrap_or(Fault::Dt));
         }
         // At least dt, also where a stored gap was negative.
-        state.gap = clamp(gap_after(state.gap, dt, T::HIGHEST), dt, T::HIGHEST);
+        state.gap = clamp(state.gap + dt, dt, T::HIGHEST);
         if !position.is_finite() {
             return RateStatus::Held(Fault::Position);
         }

@@ -211,7 +211,11 @@ impl<T: Real> Plausible<T> {
         } else {
             self.longest_dt
         };
-        let elapsed = gap_after(state.gap, dt, T::HIGHEST);
+        let mut elapsed = gap_after(state.gap, dt, T::HIGHEST);
+        if elapsed == state.gap && dt > T::ZERO {
+            // So long that `dt` no longer changes it, in `f32` after 2²⁴ samples: long enough.
+            elapsed = T::HIGHEST;
+        }
         let fault = self.fault(state, sample, elapsed, moves);
         match fault {
             None => {

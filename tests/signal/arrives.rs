@@ -205,13 +205,3 @@ fn a_distant_reading_is_accepted_in_the_end_at_any_rate_of_samples() {
     let is_accepted = |_: &u32| check.step(&mut state, 30.0, 1e-4, true).fault.is_none();
     assert!((0..=MANY).find(is_accepted).is_some());
 }
-
-#[test]
-fn an_axis_without_counts_stops_in_the_end_at_any_rate_of_samples() {
-    let edges = EdgeVelocity::try_new(1.0_f32, 0.1, 2900.0).unwrap();
-    let mut state = EdgeVelocityState::new();
-    edges.step(&mut state, 0.0, 1e-4);
-    edges.step(&mut state, 1.0, 1e-4);
-    let has_stopped = |_: &u32| edges.step(&mut state, 1.0, 1e-4).status == RateStatus::Stopped;
-    assert!((0..=MANY).find(has_stopped).is_some());
-}

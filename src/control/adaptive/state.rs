@@ -127,16 +127,6 @@ crate::data! {
     }
 }
 
-impl End {
-    /// Whether an error of this sign requires more than the drive gives.
-    pub(super) fn is_asked_for_more<T: Real>(self, error: T) -> bool {
-        match self {
-            Self::Upper => error < T::ZERO,
-            Self::Lower => error > T::ZERO,
-        }
-    }
-}
-
 impl<T: Real, const N: usize> AdaptiveState<T, N> {
     /// Initial state with the initial estimates and zero accumulated error. The command is the
     /// value nearest to zero within the limits.

@@ -119,21 +119,16 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         if limits.slew().is_some() || !limits.contains(command) || drive.is_some() {
             rarely();
             command = limits.apply(state.held.command, terms.unlimited, dt);
-            // An error of this sign requires more than the limit gives.
-            // With a negative beta_hat, a greater command lowers the output.
-            let falls = terms.beta_hat < T::ZERO;
-            let turned = |error: T| if falls { -error } else { error };
-            let (error, s) = (turned(terms.error), turned(terms.s));
-            let asks_more = |error: T| {
-                (command < terms.unlimited && error < T::ZERO)
-                    || (command > terms.unlimited && error > T::ZERO)
-            };
-            z_waits = asks_more(error);
-            estimates_wait |= asks_more(s);
-            if let Some(end) = drive {
-                z_waits |= end.is_asked_for_more(error);
-                estimates_wait |= end.is_asked_for_more(s);
+            let mut upper = command < terms.unlimited || drive == Some(End::Upper);
+            let mut lower = command > terms.unlimited || drive == Some(End::Lower);
+            if terms.beta_hat < T::ZERO {
+                // A higher command lowers the output.
+                (upper, lower) = (lower, upper);
             }
+            // An error of this sign requires more than the limit gives.
+            let asks_more = |error: T| (upper && error < T::ZERO) || (lower && error > T::ZERO);
+            z_waits = asks_more(terms.error);
+            estimates_wait |= asks_more(terms.s);
             if command != terms.unlimited {
                 lag = Compensated::new(command - input.feed_forward);
                 all += lag.value;

@@ -83,6 +83,7 @@ impl<T: Real> Pid<T> {
         let end = clamp(wanted, limits.low(), limits.high());
         if !inside {
             integral = self.cut(before.value, integral, rest, end);
+            last.change = integral.value - before.value;
         }
         // Exactly at the limit, for any rounding of the difference.
         let mut command = end;
@@ -91,11 +92,11 @@ impl<T: Real> Pid<T> {
                 let own = state.integral.value;
                 let (low, high) = (least(-limit, own), greatest(limit, own));
                 integral = integral.within(low, high);
+                last.change = integral.value - before.value;
                 command = rest + integral.value;
             }
             command = limits.apply(state.command(), command, dt);
         }
-        last.change = integral.value - before.value;
         last.unlimited = rest + integral.value;
         Some(state.moved_on(command, last, integral, rate))
     }
