@@ -51,13 +51,13 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_status_fault, status.fault());
     let at = LoopSample::new(any(), any(), any());
     never_panics!(
-        control_controller_new,
+        rig_controller_new,
         LoopSample::<T>::new(any(), any(), any())
     );
     let pi = black_box(Pid::<T>::paper_pi());
     let mut state = black_box(PidState::new());
     never_panics!(
-        control_controller_step,
+        rig_controller_step,
         Controller::step(&pi, &mut state, &at)
     );
     never_panics!(
