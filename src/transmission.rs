@@ -119,7 +119,7 @@ crate::checked! {
 }
 
 impl<T: Real> Transmission<T> {
-    /// Input and output quantities.
+    /// Torque or displacement mode, which determines the input and output quantities.
     pub fn mode(&self) -> Mode {
         self.mode
     }

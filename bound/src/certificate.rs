@@ -83,52 +83,59 @@ impl<T> Certificate<T> {
 }
 
 const PLANT: &str = "the plant is y = alpha*u - theta'x - D: no dynamics between u and y";
-const RANGES: &str = "alpha and theta lie in the stated intervals and do not change";
+const RANGES: &str = "alpha and theta are constant and lie in the stated intervals";
 const DISTURBANCE: &str =
-    "|D| <= delta at every time, D with hysteresis, pretension and any feed-forward's error";
-const LIMITS: &str = "no output limit, slew rate or limit of z is met, and no sample is bad";
+    "|D| <= delta at all times; D includes hysteresis, pretension and the error of any feed-forward";
+const LIMITS: &str =
+    "no command limit, slew-rate limit or limit on z is active, and no sample is bad";
 const FIXED: &str = "estimates that do not adapt are at their initial values";
+const DELAY: &str =
+    "each command acts within its sample: y is the response to u of the previous sample";
+const RATES: &str =
+    "|D(k+1) - D(k)| <= h*delta_rate and |x(k+1) - x(k)| <= h*rate on the true trajectory";
+const REFERENCE: &str =
+    "|y_r|, |x| and the change of y_r from sample to sample are within the stated limits";
 
 static CONTINUOUS: &[&str] = &[
-    "continuous time: the law runs much faster than the loop, nothing is delayed",
-    "e' is known: neither the filter nor the noise of its difference counts",
+    "continuous time: the law runs much faster than the dynamics of the loop, and there is no delay",
+    "e' is known: the filter and the noise of its difference quotient are neglected",
     PLANT,
     RANGES,
     DISTURBANCE,
-    "y_r, x and D are such that a solution exists (no slack cable)",
+    "for y_r, x and D, a solution exists (no slack cable)",
     LIMITS,
     FIXED,
 ];
 
 static SAMPLED: &[&str] = &[
-    "each command acts within its sample: y at a sample is of the u of the one before",
+    DELAY,
     PLANT,
-    "alpha lies in its interval and does not change; neither does theta",
+    RANGES,
     DISTURBANCE,
-    "|D(k+1) - D(k)| <= h*delta_rate and |x(k+1) - x(k)| <= h*rate along the true path",
-    "|y_r|, its change from sample to sample and |x| stay within what is stated",
-    "the next reference given to the law is the one that comes",
-    "y and x are measured without noise (noise of y adds to D and, over h, to its rate)",
-    "the errors start in the box: else the bound holds in the limit",
+    RATES,
+    REFERENCE,
+    "the next reference that the law receives is correct",
+    "y and x are measured without noise (noise of y adds to D, and noise/h to the rate of D)",
+    "the initial errors are in the box; otherwise the bound holds only in the limit",
     LIMITS,
     FIXED,
 ];
 
 static ROUNDED: &[&str] = &[
-    "each command acts within its sample: y at a sample is of the u of the one before",
+    DELAY,
     PLANT,
-    "alpha lies in its interval and does not change; neither does theta",
-    "|D| <= delta at every time, with what the sensor rounds; y is what the controller reads",
-    "|D(k+1) - D(k)| <= h*delta_rate and |x(k+1) - x(k)| <= h*rate along the true path",
-    "|y_r|, its change from sample to sample and |x| stay within what is stated",
-    "the next reference given to the law is the one that comes; no feed-forward",
-    "dt is the step of the form at every sample; no sample is bad",
-    "the errors start in the box, and no sum owes more than it may",
+    RANGES,
+    "|D| <= delta at all times, where D includes the quantisation error of the sensor; y is the value that the controller reads",
+    RATES,
+    REFERENCE,
+    "the next reference that the law receives is correct, and there is no feed-forward",
+    "dt is the step of the form at every sample, and no sample is bad",
+    "the initial errors are in the box, and the initial carry of each sum is within its bound",
     FIXED,
 ];
 
 static PER_STEP: &[&str] = &[
-    "all that the sampled peak certificate assumes",
-    "every sample takes the stated step, no shorter one",
-    "the errors start in the box of the sampled peak certificate",
+    "all assumptions of the sampled peak certificate",
+    "dt is the stated step at every sample, never shorter",
+    "the initial errors are in the box of the sampled peak certificate",
 ];

@@ -26,7 +26,7 @@ impl Help {
             None => {
                 let names: Vec<&str> = all.get_subcommands().map(clap::Command::get_name).collect();
                 Err(format!(
-                    "help {topic}: the topic must be terms or one of {}",
+                    "help {topic}: unknown topic; allowed are `terms` and {}",
                     names.join(", ")
                 ))
             }

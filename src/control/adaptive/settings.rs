@@ -163,7 +163,8 @@ crate::checked! {
     /// - [`Error::Inadmissible`] with the violated condition of the first-order form:
     ///   `beta.low > 0`, `delta.low >= 0`, `h·lambda <= 1` or
     ///   `h·lambda·g·(k + delta.high/epsilon) <= 1`, where g is `plant_gain·beta.high`.
-    ///   [`AdaptiveSettings::largest_step`] then returns an admissible step.
+    ///   For the last two conditions, [`AdaptiveSettings::largest_step`] returns the largest
+    ///   admissible `dt`.
     pub fn try_new(settings: AdaptiveSettings<T, N>) {
         let s = &settings;
         above_zero!(s.gain, "gain");

@@ -126,7 +126,7 @@ fn beyond(line: &Promise) -> String {
 const NOTES: [&str; 3] = [
     "range: alpha, zeta, c/K and the latency of the plant may deviate from the values of the rig by the first percentage, and wn by the second",
     "beta within p %: beta_hat stays within 1/alpha ± p %, where alpha is N_A·B of the rig",
-    "`constant |D|` row: proofs/README.md proves |s| <= 0.43 N·m and |e| <= 0.86 N·m for f32 with rounding errors and the gains in Table 2 of Nguyen et al. (2018), if |w| <= 8 N·m and s and z start within their bounds",
+    "`constant |D|` row: for the gains in Table 2 of Nguyen et al. (2018), proofs/README.md also proves |s| <= 0.43 N·m and |e| <= 0.86 N·m for the error recursion in f32, including rounding errors. The proof assumes |w| <= 8 N·m, where w is the disturbance plus the effect of estimation errors, and |s| <= 0.43 N·m and |z| <= 0.43/lambda at the start.",
 ];
 
 /// The assumptions of each kind of bound.

@@ -255,7 +255,7 @@ const NOT_OF_THIS_RIG: &str = "No bounds are shown, because they hold only for t
 
 const OF_CONTROLLERS: [(&str, &str); 5] = [
     ("matched-pi", "a PI with the effective integral gain of the adaptive law in Nguyen et al. (2018), which is 320. Its error shows the effect of this gain without adaptation."),
-    ("pi-observer", "a PI with lower gains and a disturbance observer, without a friction model. `bowden certify` prints the range of plants for which the loop is stable."),
+    ("pi-observer", "a PI with lower gains and a disturbance observer, without a friction model. `bowden certify` prints the range of plants for which the loop is proved stable."),
     ("adaptive-frozen", "the adaptive law with fixed estimates. beta_hat is 1/alpha if its given value is 0."),
     ("adaptive-feed-forward", "the adaptive law plus a feed-forward, which is the inverse of the rig's own transmission or of the given model."),
     ("pi-learning", "the PI of Nguyen et al. (2018) plus iterative learning: a correction for each cell of the cycle, computed with the inverse of the nominal plant. It needs the phase of the cycle and takes five to twenty cycles to learn."),

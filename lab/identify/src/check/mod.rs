@@ -276,13 +276,12 @@ impl Check {
                 percent(NOTHING)
             );
         }
-        let own = format!("{HOLDS} times the model's own held-out error");
         match self.about.held_out_rmse.is_some() {
             true => format!(
-                "the largest of {own} as a share of the standard deviation, {own} in the output's unit (but at most {} of the standard deviation), and {noise}",
+                "the largest of three limits: {HOLDS} times the held-out NRMSE in the model file; {HOLDS} times the held-out RMSE in the model file, but at most {} of this record's standard deviation; {noise}",
                 percent(POOR)
             ),
-            false => format!("the larger of {own} as a share of the standard deviation, and {noise}"),
+            false => format!("the larger of {HOLDS} times the held-out NRMSE in the model file and {noise}"),
         }
     }
 

@@ -373,9 +373,11 @@ fn refusal(entry: &Entry<'_>, wide: bool, partner: Option<(&str, f64)>) -> Refus
         .map(|(name, _)| format!("correlated with {name}"));
     let reason = match (entry.refused.clone(), with) {
         (Some(reason), _) => reason,
-        (None, Some(with)) if wide => format!("interval wider than half of the value, and {with}"),
+        (None, Some(with)) if wide => {
+            format!("half-width of the interval above half of the value, and {with}")
+        }
         (None, Some(with)) => with,
-        (None, None) if wide => "interval wider than half of the value".to_owned(),
+        (None, None) if wide => "half-width of the interval above half of the value".to_owned(),
         (None, None) => "no part of the output depends only on this parameter".to_owned(),
     };
     Refusal {

@@ -201,10 +201,10 @@ impl Finding {
             Self::ErrorIsNoise { error } => format!("The model holds: its error, {} of this record's output, is sensor noise. Nothing was refitted.", percent(*error)),
             Self::ErrorTooLarge { error, own, with_line } => {
                 let own = own.map_or_else(
-                    || "an unknown error on its own record (the model file does not contain it)".to_owned(),
-                    |own| format!("{} on the held-out part of its own record", percent(own)),
+                    || ". The model file does not contain the error on its own record".to_owned(),
+                    |own| format!(", compared with {} on the held-out part of its own record", percent(own)),
                 );
-                format!("The model does not hold: its error is {} of this record's output, compared with {own}. With a different gain and offset, the error is {}.", percent(*error), percent(*with_line))
+                format!("The model does not hold: its error is {} of this record's output{own}. With a different gain and offset, the error is {}.", percent(*error), percent(*with_line))
             }
             Self::ErrorAtLimit { error, limit } => format!("This record is inconclusive: the error is {} of its output, and the limit is {}. Use a record with the same motion as the model's own record.", percent(*error), percent(*limit)),
             Self::ErrorWithoutLimit { error } => format!("This record is inconclusive: the error is {} of its output and exceeds the noise, and the model file contains no error for comparison.", percent(*error)),

@@ -149,7 +149,9 @@ impl About {
             )
         };
         let verdict = self.verdict.as_deref().filter(forbids)?;
-        Some(format!("DO NOT USE: its verdict is `{verdict}`."))
+        Some(format!(
+            "DO NOT USE THIS MODEL: its verdict is `{verdict}`."
+        ))
     }
 
     /// The statements about a solution that follow from its record; the caller adds the others.

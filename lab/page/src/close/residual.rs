@@ -107,7 +107,7 @@ pub(super) fn noise(facts: &Facts, figures: &Figures) -> Markup {
 pub(crate) fn noise_of(figures: &Figures, unit: Option<&str>, cutoff: f64) -> Markup {
     html! {
         p {
-            "The filter correlates even white noise over a few samples. The grey band contains 95 % of the estimates for filtered white noise. If the autocorrelation stays inside the band, the residual is noise. Otherwise the model lacks an effect."
+            "After the filter, even white noise is correlated over lags of up to about 1.5/f_c, where f_c is the cut-off frequency. The grey band contains 95 % of the estimates for filtered white noise. If the autocorrelation stays inside the band, the residual is noise. Otherwise the model lacks an effect."
         }
         div class="pair" {
             (autocorrelation(figures).figure())

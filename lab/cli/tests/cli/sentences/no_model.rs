@@ -177,7 +177,7 @@ fn the_files_of_no_model_say_so_and_no_gains_are_derived_from_it() {
         &folder.read("m.toml"),
         &["verdict = \"no-input-dependence\""],
     );
-    let warning = "DO NOT USE: its verdict is `no-input-dependence`.";
+    let warning = "DO NOT USE THIS MODEL: its verdict is `no-input-dependence`.";
     has(&folder.read("m.rs"), &[warning]);
     has(&said(&format!("export --c {toml}")), &[warning]);
     let design = format!("design {toml} --rate 1000 --delay 0.006");
