@@ -394,7 +394,7 @@ typedef uint32_t bowden_anti_windup;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Input and output quantities of a transmission.
+// Torque or displacement mode, which determines the input and output quantities.
 enum bowden_mode
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t

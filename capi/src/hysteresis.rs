@@ -6,7 +6,7 @@ use crate::settings::{marked, Marked, UNSET};
 use core_bowden::hysteresis::{BoucWen, BoucWenState};
 use core_bowden::transmission::{Inverse, Transmission};
 
-/// Input and output quantities of a transmission.
+/// Torque or displacement mode, which determines the input and output quantities.
 #[repr(u32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum bowden_mode {
