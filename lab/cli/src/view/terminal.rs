@@ -296,7 +296,7 @@ fn errors(facts: &Facts, report: Report) -> String {
     // The headline quotes this row.
     let is_quoted = !facts.rounds.is_empty();
     if facts.last.refitted && (report.verbose || is_quoted) {
-        row("refitted with selection".to_owned(), &facts.last.rmse, "");
+        row("final (refitted)".to_owned(), &facts.last.rmse, "");
     }
     if let Some(exported) = facts.constrained() {
         row("exported (--invertible)".to_owned(), &exported.rmse, "");

@@ -14,6 +14,9 @@ fit           The first 60 % of the record. The search fits parameters and propo
 selection     The next 15 %. The search rejects a term that raises the error here.
 held-out      The last 25 %. The search does not use it, so its error is the error to expect on
               the next record of the same motion. `↑` marks a term that raises this error.
+final (refitted)
+              The final model, fitted to the fit and selection segments together. The first
+              sentences quote its held-out error.
 removes       The share of the squared error on the fit segment that a term removes.
 confidence    High for a term if the residual is noise, the term has no alternative, and none of
               its parameters is at a bound (except a lag's gain of 1). Low if the output leads the
