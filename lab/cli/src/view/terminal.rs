@@ -7,8 +7,8 @@ use super::several;
 use super::words::{estimate, in_brackets, table};
 use anstyle::AnsiColor;
 use bowden_lab::facts::{
-    lacking, number, Defect, DescribedBy, Facts, Grade, Lack, Parameter, Segments, Size, Verdict,
-    BLOCKS, TIED,
+    lacking, number, percent, Defect, DescribedBy, Facts, Grade, Lack, Parameter, Segments, Size,
+    Verdict, BLOCKS, TIED,
 };
 use std::fmt::Write as _;
 
@@ -293,9 +293,11 @@ fn errors(facts: &Facts, report: Report) -> String {
         let mark = if round.raises_held_out { " ↑" } else { "" };
         row(name, &round.after, mark);
     }
-    // The headline quotes this row.
-    let is_quoted = !facts.rounds.is_empty();
-    if facts.last.refitted && (report.verbose || is_quoted) {
+    // The headline quotes this row, if its percentage is another one.
+    let quoted = |rmse: &Segments| percent(rmse.held_out / facts.deviation.held_out);
+    let last = facts.rounds.last().map(|round| quoted(&round.after));
+    let is_other = last.is_some_and(|last| last != quoted(&facts.last.rmse));
+    if facts.last.refitted && (report.verbose || is_other) {
         row("final (refitted)".to_owned(), &facts.last.rmse, "");
     }
     if let Some(exported) = facts.constrained() {
