@@ -56,10 +56,7 @@ pub fn all<T: Real>() -> Option<()> {
     );
     let pi = black_box(Pid::<T>::paper_pi());
     let mut state = black_box(PidState::new());
-    never_panics!(
-        rig_controller_step,
-        Controller::step(&pi, &mut state, &at)
-    );
+    never_panics!(rig_controller_step, Controller::step(&pi, &mut state, &at));
     never_panics!(
         error_parameter,
         black_box(bowden::Error::Capacity("terms")).parameter()
