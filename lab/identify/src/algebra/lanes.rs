@@ -111,8 +111,7 @@ impl WithSimd for Coefficients<'_> {
         for k in 0..last {
             let (done, rest) = products.split_at_mut((k + 1) * size);
             let column = &mut done[k * size + k..];
-            // A NaN is not positive, either.
-            if !(column[0] > 0.0) {
+            if column[0] <= 0.0 || column[0].is_nan() {
                 return None;
             }
             let root = column[0].sqrt();
