@@ -138,7 +138,5 @@ pub fn families(ledger: &Ledger) -> Vec<Vec<&'static str>> {
 
 /// The parameter of that name.
 pub fn named<'a>(all: &'a [Parameter], name: &str) -> &'a Parameter {
-    let mut all = all.iter();
-    all.find(|p| p.name == name)
-        .unwrap_or_else(|| panic!("no parameter {name}"))
+    all.iter().find(|p| p.name == name).unwrap()
 }

@@ -246,6 +246,6 @@ fn without_bouc_wen_there_is_nothing_to_invert_and_the_program_says_so() {
     let folder = Folder::new();
     let model = folder.path("model.toml");
     let asked = format!("identify --baseline viscous --invertible --model-out {model}");
-    refuses(&asked, &["--invertible", "bouc-wen"]);
+    refuses(&asked, &["--invertible", "Bouc-Wen"]);
     assert!(folder.names().is_empty());
 }
