@@ -86,15 +86,13 @@ const PLANT: &str = "the plant is y = alpha*u - theta'x - D: no dynamics between
 const RANGES: &str = "alpha and theta are constant and lie in the stated intervals";
 const DISTURBANCE: &str =
     "|D| <= delta at all times; D includes hysteresis, pretension and the error of any feed-forward";
-const LIMITS: &str =
-    "no command limit, slew-rate limit or limit on z is active, and no sample is bad";
+const LIMITS: &str = "no limit on command, slew rate or z is active, and no sample is bad";
 const FIXED: &str = "estimates that do not adapt are at their initial values";
 const DELAY: &str =
     "each command acts within its sample: y is the response to u of the previous sample";
 const RATES: &str =
     "|D(k+1) - D(k)| <= h*delta_rate and |x(k+1) - x(k)| <= h*rate on the true trajectory";
-const REFERENCE: &str =
-    "|y_r|, |x| and the change of y_r from sample to sample are within the stated limits";
+const REFERENCE: &str = "|y_r|, |x| and the change of y_r per sample are within the stated limits";
 
 static CONTINUOUS: &[&str] = &[
     "continuous time: the law runs much faster than the dynamics of the loop, and there is no delay",
