@@ -3,6 +3,7 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
+mod any_law;
 #[cfg(feature = "serde")]
 mod flash;
 mod inputs;
@@ -13,8 +14,8 @@ mod score;
 mod shared;
 mod stored;
 
+use any_law::{Controller, LoopSample};
 use bowden::control::*;
-use bowden_rig::{Controller, LoopSample};
 use proptest::prelude::*;
 use shared::*;
 
