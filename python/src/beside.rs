@@ -6,10 +6,9 @@ use crate::failure;
 use crate::lanes::{read, written};
 use bowden::control::{
     DisturbanceObserver, IterativeLearning, IterativeLearningInput, IterativeLearningState,
-    NominalPlant, ObserverInput, ObserverState,
+    LoopSample, NominalPlant, ObserverInput, ObserverState,
 };
 use bowden::effect::Motion;
-use bowden_rig::LoopSample;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};

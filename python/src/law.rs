@@ -4,8 +4,10 @@ use crate::code;
 use crate::code::Codes;
 use crate::failure;
 use crate::lanes::{read, written};
-use bowden::control::{Adaptive, AdaptiveState, AdaptiveTerms, Applied, Pid, PidState, PidTerms};
-use bowden_rig::{Controller, LoopSample};
+use bowden::control::{
+    Adaptive, AdaptiveState, AdaptiveTerms, Applied, Controller, LoopSample, Pid, PidState,
+    PidTerms,
+};
 use pyo3::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};

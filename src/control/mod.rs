@@ -28,15 +28,16 @@
 //! | [`IterativeLearning`] | feed-forward from the error of earlier cycles of a repeating task | |
 //! | [`Relay`] | relay experiment that measures the ultimate gain and period, for PI gains | |
 //!
-//! [`law`] contains the equations of the adaptive law, one function for each term.
+//! [`Controller`] is the common interface of [`Pid`] and [`Adaptive`]. [`law`] contains the
+//! equations of the adaptive law, one function for each term.
 
 mod adaptive;
 mod compensator;
+mod controller;
 pub mod law;
 mod learning;
 pub(crate) mod limits;
 mod observer;
-mod output;
 pub(crate) mod pid;
 mod relay;
 pub(crate) mod status;
@@ -50,10 +51,10 @@ pub use adaptive::{
 pub use compensator::{
     BenchRange, Changed, Compensator, CompensatorInput, CompensatorOutput, CompensatorState,
 };
+pub use controller::{Controller, LoopSample, Output, Telemetry};
 pub use learning::{IterativeLearning, IterativeLearningInput, IterativeLearningState};
 pub use limits::Limits;
 pub use observer::{DisturbanceObserver, NominalPlant, ObserverInput, ObserverState};
-pub use output::{Output, Telemetry};
 pub use pid::{AntiWindup, DerivativeSource, Pid, PidInput, PidSettings, PidState, PidTerms};
 pub use relay::{PiGains, PiRule, Relay, RelaySettings, RelayState, Ultimate};
 pub use status::{Applied, Fallback, Status};

@@ -3,7 +3,6 @@
 // Clippy's allowance covers the test functions, not what they share.
 #![allow(clippy::unwrap_used)]
 
-mod any_law;
 #[cfg(feature = "serde")]
 mod flash;
 mod inputs;
@@ -14,7 +13,6 @@ mod score;
 mod shared;
 mod stored;
 
-use any_law::{Controller, LoopSample};
 use bowden::control::*;
 use proptest::prelude::*;
 use shared::*;

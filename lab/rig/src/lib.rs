@@ -29,7 +29,6 @@
 
 mod checked;
 mod config;
-mod controller;
 mod drift;
 mod noise;
 mod plant;
@@ -37,7 +36,6 @@ mod reference;
 mod sensor;
 
 pub use config::RigConfig;
-pub use controller::{Controller, LoopSample};
 pub use drift::Drift;
 pub use noise::Noise;
 pub use reference::Reference;

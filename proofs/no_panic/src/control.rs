@@ -9,9 +9,8 @@ mod pid;
 mod relay;
 
 use crate::{any, never_panics};
-use bowden::control::{Fallback, Limits, Pid, PidState, Status};
+use bowden::control::{Controller, Fallback, Limits, LoopSample, Pid, PidState, Status};
 use bowden::Real;
-use bowden_rig::{Controller, LoopSample};
 use std::hint::black_box;
 
 pub use adaptive::law;
@@ -51,12 +50,15 @@ pub fn all<T: Real>() -> Option<()> {
     never_panics!(control_status_fault, status.fault());
     let at = LoopSample::new(any(), any(), any());
     never_panics!(
-        rig_controller_new,
+        control_controller_new,
         LoopSample::<T>::new(any(), any(), any())
     );
     let pi = black_box(Pid::<T>::paper_pi());
     let mut state = black_box(PidState::new());
-    never_panics!(rig_controller_step, Controller::step(&pi, &mut state, &at));
+    never_panics!(
+        control_controller_step,
+        Controller::step(&pi, &mut state, &at)
+    );
     never_panics!(
         error_parameter,
         black_box(bowden::Error::Capacity("terms")).parameter()

@@ -64,7 +64,7 @@ pub(super) fn section(facts: &Facts, figures: &Figures) -> Markup {
     let mut rows = vec![label("baseline", facts, &facts.declared.rmse)];
     rows.extend(all(facts).map(|(k, one)| round(k, one, facts)));
     if facts.last.refitted {
-        rows.push(label("refitted with selection", facts, &facts.last.rmse));
+        rows.push(label("final (refitted)", facts, &facts.last.rmse));
     }
     if let Some(exported) = facts.constrained() {
         rows.push(label("exported (--invertible)", facts, &exported.rmse));

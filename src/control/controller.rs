@@ -1,10 +1,45 @@
 //! The common interface of the controllers. A loop that uses it can run any controller.
 
-use bowden::control::{
-    Adaptive, AdaptiveInput, AdaptiveState, Applied, Limits, Output, Pid, PidInput, PidState,
-    Status,
+use super::{
+    Adaptive, AdaptiveInput, AdaptiveState, Applied, Limits, Pid, PidInput, PidState, Status,
 };
-use bowden::Real;
+use crate::Real;
+
+crate::data! {
+    /// Output of a step of a controller, of [`IterativeLearning`](super::IterativeLearning), or of
+    /// a [`DisturbanceObserver`](super::DisturbanceObserver).
+    pub struct Output<T> {
+        /// Command for the drive, or the value to add to the command \[command unit\]; finite and
+        /// within the limits.
+        pub command: T,
+        /// Status of the sample: good, or the fault.
+        pub status: Status,
+    }
+}
+
+/// Output of a step, with all terms of the control law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Telemetry<T, M> {
+    /// Command for the drive \[command unit\]; finite and within the limits.
+    pub command: T,
+    /// Status of the sample: good, or the fault.
+    pub status: Status,
+    /// The terms: [`PidTerms`](super::PidTerms) of the last good sample, or
+    /// [`AdaptiveTerms`](super::AdaptiveTerms).
+    pub terms: M,
+}
+
+impl<T> Output<T> {
+    pub(super) fn with<M>(self, terms: M) -> Telemetry<T, M> {
+        let Self { command, status } = self;
+        Telemetry {
+            command,
+            status,
+            terms,
+        }
+    }
+}
 
 /// One sample for any controller. Each controller reads only the fields that it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,8 +81,7 @@ impl<T: Real> LoopSample<'_, T> {
 /// A torque controller: PI, PID, PIV or the adaptive law.
 ///
 /// ```
-/// use bowden::control::{Pid, Status};
-/// use bowden_rig::{Controller, LoopSample};
+/// use bowden::control::{Controller, LoopSample, Pid, Status};
 /// /// One tick of a loop that runs any law.
 /// fn tick<C: Controller<f32>>(law: &C, state: &mut C::State, at: &LoopSample<f32>) -> f32 {
 ///     let out = law.step(state, at);
